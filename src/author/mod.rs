@@ -1,0 +1,1 @@
+//! How the head's assets are made: patch language, first fit, bake.

@@ -1,0 +1,1 @@
+//! Mesh file formats, from and to bytes.

@@ -1,0 +1,1 @@
+//! Connectivity of triangle meshes as directed edges; no positions inside.

@@ -1,0 +1,1 @@
+//! Subdivision as a plan that is built once and evaluated every frame.
