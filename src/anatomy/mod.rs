@@ -1,1 +1,33 @@
 //! Measures of a dog's head, breeds as values of them, and their files. Knows no mesh.
+//!
+//! - [`ParamTable`] is the one table of measures (`rigs/anatomy.ron`): it feeds files, sliders, the command line and the
+//!   manual. A measure is named by an id that ends in its unit; inside, every value is in metres, radians or a pure number.
+//! - [`Breed`] has a value for each row of the table and a [`Look`]; [`Breed::blend`] mixes breeds by mixing values.
+//! - [`load_breed`] and [`save_breed`] turn text into a breed and back, exactly. No function here touches the file system.
+//! - [`library`] holds the table and the breeds that are part of the program.
+
+mod breed;
+pub mod colour;
+mod file;
+pub mod library;
+mod load;
+mod locate;
+mod look;
+mod nearest;
+mod param;
+mod problem;
+mod read;
+mod region;
+mod save;
+mod table;
+
+pub use breed::Breed;
+pub use load::load_breed;
+pub use locate::Place;
+pub use look::{Look, Mark};
+pub use nearest::nearest;
+pub use param::{Follow, ParamSpec, Unit};
+pub use problem::{LoadErrors, Problem, ProblemKind};
+pub use region::Region;
+pub use save::save_breed;
+pub use table::ParamTable;

@@ -1,0 +1,68 @@
+//! Text to [`Breed`].
+
+use super::file::{self, BreedFile};
+use super::read::Problems;
+use super::{Breed, LoadErrors, Look, Mark, ParamTable, ProblemKind, Region, locate, nearest};
+
+/// Reads a breed. `name` is the file's name or path: it stands in messages, and its stem becomes the breed's id.
+///
+/// # Errors
+/// The first syntax error, or every mistake of meaning: unknown or double or missing fields, wrong types, values out of range
+/// or not finite, unknown parameters, regions, colours, versions. Each has its place.
+pub fn load_breed(table: &ParamTable, name: &str, text: &str) -> Result<Breed, LoadErrors> {
+    let root = locate::parse(name, text)?;
+    let mut problems = Problems::default();
+    let breed = file::read(&root, &mut problems).map(|file| resolve(table, name, file, &mut problems));
+    problems.finish(name, breed)
+}
+
+fn resolve(table: &ParamTable, name: &str, file: BreedFile, problems: &mut Problems) -> Breed {
+    let mut breed = Breed::defaults(table);
+    breed.id = stem(name).to_owned();
+    breed.label = file.label;
+    for measure in &file.anatomy {
+        let Some(index) = table.index_of(&measure.id) else {
+            let near = table.nearest(&measure.id).into_iter().map(str::to_owned).collect();
+            problems.push(measure.id_at, ProblemKind::UnknownParameter { id: measure.id.clone(), nearest: near });
+            continue;
+        };
+        let spec = &table.specs[index];
+        // NaN stands for a value that has been reported already.
+        if measure.value < spec.min || measure.value > spec.max {
+            let (field, value, min, max) = (measure.id.clone(), measure.value, spec.min, spec.max);
+            problems.push(measure.value_at, ProblemKind::OutOfRange { field, value, min, max });
+        } else if !measure.value.is_nan() {
+            breed.values[index] = spec.to_si(measure.value);
+            breed.set[index] = true;
+        }
+    }
+    table.resolve(&mut breed.values, &breed.set);
+    breed.look = resolve_look(file.coat, problems);
+    breed
+}
+
+fn resolve_look(coat: file::CoatFile, problems: &mut Problems) -> Look {
+    let mut marks = Vec::new();
+    for mark in coat.marks {
+        let mut regions = Vec::new();
+        for (name, place) in mark.regions {
+            match Region::from_name(&name) {
+                Some(region) => regions.push(region),
+                None => {
+                    let near = nearest(&name, Region::ALL.iter().map(|r| (r.name(), r.name())));
+                    let near = near.into_iter().map(str::to_owned).collect();
+                    problems.push(place, ProblemKind::UnknownRegion { name, nearest: near });
+                }
+            }
+        }
+        marks.push(Mark { regions, colour: mark.colour, amount: mark.amount });
+    }
+    let file::CoatFile { base, nose, lips, mouth, iris, fur, .. } = coat;
+    Look { base, marks, nose, lips, mouth, iris, fur }
+}
+
+/// The file's name without folders and ending.
+fn stem(name: &str) -> &str {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    file.strip_suffix(".ron").unwrap_or(file)
+}

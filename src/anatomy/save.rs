@@ -1,0 +1,65 @@
+//! [`Breed`] to text.
+
+use super::file::NEWEST;
+use super::{Breed, ParamTable, colour, param};
+use glam::Vec3;
+use std::fmt::Write;
+
+/// Writes a breed as a file: the values that are set, in the order of the table, and the look.
+///
+/// [`super::load_breed`] turns the text into the same breed again, to the bit; only the id is the file's name and not in it.
+pub fn save_breed(table: &ParamTable, breed: &Breed) -> String {
+    let mut out = String::new();
+    // Writing into a String cannot fail.
+    let _ = write_breed(&mut out, table, breed);
+    out
+}
+
+fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt::Result {
+    writeln!(out, "Breed(\n    version: {NEWEST},\n    label: {},\n    anatomy: {{", quoted(&breed.label))?;
+    for (i, spec) in table.specs.iter().enumerate().filter(|(i, _)| breed.set[*i]) {
+        writeln!(out, "        \"{}\": {:?},", spec.id, spec.from_si(breed.values[i]))?;
+    }
+    let look = &breed.look;
+    writeln!(out, "    }},\n    coat: (\n        base: {},", colour_text(look.base))?;
+    if !look.marks.is_empty() {
+        writeln!(out, "        marks: [")?;
+        for mark in &look.marks {
+            let regions: Vec<String> = mark.regions.iter().map(|r| format!("\"{}\"", r.name())).collect();
+            let (regions, colour) = (regions.join(", "), colour_text(mark.colour));
+            writeln!(out, "            (regions: [{regions}], colour: {colour}, amount: {}),", number(mark.amount))?;
+        }
+        writeln!(out, "        ],")?;
+    }
+    for (name, colour) in [("nose", look.nose), ("lips", look.lips), ("mouth", look.mouth), ("iris", look.iris)] {
+        writeln!(out, "        {name}: {},", colour_text(colour))?;
+    }
+    writeln!(out, "        fur: {},\n    ),\n)", number(look.fur))
+}
+
+fn colour_text(linear: Vec3) -> String {
+    let hex = colour::to_hex(linear);
+    if colour::from_hex(&hex) == Some(linear) {
+        return format!("\"{hex}\"");
+    }
+    let [r, g, b] = linear.to_array().map(number);
+    format!("({r}, {g}, {b})")
+}
+
+fn number(value: f32) -> String {
+    let short = param::shortest(f64::from(value), |c| (c as f32).to_bits() == value.to_bits());
+    format!("{short:?}")
+}
+
+fn quoted(text: &str) -> String {
+    let mut out = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => out.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
