@@ -1,1 +1,4 @@
 //! How the head's assets are made: patch language, first fit, bake.
+
+pub mod base;
+pub mod patch;

@@ -1,1 +1,31 @@
-//! Frames as pixels.
+//! A frame drawn with wgpu: to pixels in memory or to a texture of the window, by the same passes.
+//!
+//! Objects by lifetime: [`Gpu`] once per run; [`Painter`] (pipelines and the head's buffers) once per device;
+//! [`Targets`] once per picture size; a [`Camera`] and a [`Drawing`] for each picture.
+
+pub mod camera;
+mod globals;
+mod gpu;
+mod ground_pass;
+mod head_buffers;
+mod mesh_pass;
+mod noise;
+mod offscreen;
+mod painter;
+pub mod picture;
+mod shader_source;
+mod shadow_pass;
+mod sheet;
+mod targets;
+mod text;
+mod wire_pass;
+
+pub use camera::{Camera, Lens, View, ViewError};
+pub use gpu::{Gpu, GpuError};
+pub use ground_pass::Background;
+pub use offscreen::{DrawError, Offscreen};
+pub use painter::{Drawing, Painter, Shading};
+pub use picture::Picture;
+pub use shader_source::{ShaderError, ShaderFile, ShaderSources};
+pub use sheet::Sheet;
+pub use targets::Targets;

@@ -1,0 +1,354 @@
+// The head's surfaces under a portrait studio: key, fill and rim light, a sky; haired skin, wet leather, eyes.
+//
+// Everything is reckoned in the head's frame, where noise stays in place whatever the camera does.
+
+struct Globals {
+    clip_from_head: mat4x4<f32>,
+    // Texture coordinates and depth in the key light's map.
+    shadow_from_head: mat4x4<f32>,
+    // The eye point and 1, or the direction towards a parallel camera and 0.
+    eye: vec4<f32>,
+    // Unit directions towards the lights, and upwards in the world; all in the head's frame.
+    key: vec4<f32>,
+    fill: vec4<f32>,
+    rim: vec4<f32>,
+    up: vec4<f32>,
+    // sRGB.
+    background_top: vec4<f32>,
+    background_bottom: vec4<f32>,
+    // The head's size (m), a pixel at the target (m), a texel of the shadow map (part of its side), unused.
+    measures: vec4<f32>,
+    // Width and height in pixels, and one over each.
+    viewport: vec4<f32>,
+}
+@group(0) @binding(0) var<uniform> globals: Globals;
+
+struct Kind {
+    code: vec4<u32>,
+}
+@group(1) @binding(0) var<uniform> kind: Kind;
+@group(1) @binding(1) var shadow_map: texture_depth_2d;
+@group(1) @binding(2) var shadow_sampler: sampler_comparison;
+@group(1) @binding(3) var noise_block: texture_3d<f32>;
+@group(1) @binding(4) var noise_sampler: sampler;
+
+const NOSE: u32 = 1u;
+const LIP: u32 = 2u;
+const MOUTH: u32 = 3u;
+const EYE: u32 = 4u;
+const CAP: u32 = 5u;
+
+// Light, linear.
+const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
+const FILL: vec3<f32> = vec3<f32>(0.27, 0.34, 0.44);
+const RIM: vec3<f32> = vec3<f32>(1.75, 1.80, 1.95);
+const SKY: vec3<f32> = vec3<f32>(0.37, 0.42, 0.50);
+const GROUND: vec3<f32> = vec3<f32>(0.17, 0.14, 0.11);
+
+struct Vertex {
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) flow: vec3<f32>,
+    @location(3) colour: vec3<f32>,
+    @location(4) surface: vec3<f32>,
+}
+
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) flow: vec3<f32>,
+    @location(3) colour: vec3<f32>,
+    @location(4) surface: vec3<f32>,
+}
+
+@vertex
+fn vertex(in: Vertex) -> Varying {
+    let clip = globals.clip_from_head * vec4<f32>(in.position, 1.0);
+    return Varying(clip, in.position, in.normal, in.flow, in.colour, in.surface);
+}
+
+// One point to be shaded, in the head's frame.
+struct Point {
+    position: vec3<f32>,
+    normal: vec3<f32>,
+    // Towards the camera.
+    view: vec3<f32>,
+    // Of the key light that arrives, 0 to 1.
+    lit: f32,
+    // Of the sky that is seen, 0 to 1.
+    open: f32,
+}
+
+fn unit(v: vec3<f32>, instead: vec3<f32>) -> vec3<f32> {
+    let l = dot(v, v);
+    if l < 1e-12 {
+        return instead;
+    }
+    return v * inverseSqrt(l);
+}
+
+// ---- light -----------------------------------------------------------------------------------------------------
+
+// How much of the key light reaches a place: ten comparisons on a spiral, each over four texels.
+fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let size = globals.measures.x;
+    let slope = 1.0 - max(dot(normal, globals.key.xyz), 0.0);
+    let place = globals.shadow_from_head * vec4<f32>(position + normal * size * (0.002 + 0.006 * slope), 1.0);
+    var sum = 0.0;
+    for (var i = 0; i < 10; i++) {
+        let radius = sqrt((f32(i) + 0.5) / 10.0) * 0.010;
+        let angle = f32(i) * 2.39996323;
+        let at = place.xy + radius * vec2<f32>(cos(angle), sin(angle));
+        sum += textureSampleCompareLevel(shadow_map, shadow_sampler, at, place.z - 0.0025);
+    }
+    return sum / 10.0;
+}
+
+fn sky(direction: vec3<f32>) -> vec3<f32> {
+    return mix(GROUND, SKY, smoothstep(-0.9, 0.9, dot(direction, globals.up.xyz)));
+}
+
+// What a mirror would show: the sky, a soft box for the key light, a narrow one for the rim.
+fn studio(direction: vec3<f32>, blur: f32) -> vec3<f32> {
+    let key = smoothstep(0.90 - blur, 0.985, dot(direction, globals.key.xyz));
+    let fill = smoothstep(0.80 - blur, 0.99, dot(direction, globals.fill.xyz));
+    let rim = smoothstep(0.90 - blur, 0.99, dot(direction, globals.rim.xyz));
+    return sky(direction) + KEY * key * 1.6 + FILL * fill * 1.2 + RIM * rim * 0.6;
+}
+
+// Lambert's cosine, let past the terminator by `wrap`, with its energy kept.
+fn wrapped(normal: vec3<f32>, light: vec3<f32>, wrap: f32) -> f32 {
+    return max(dot(normal, light) + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap));
+}
+
+fn diffuse(p: Point, wrap: f32) -> vec3<f32> {
+    let key = KEY * wrapped(p.normal, globals.key.xyz, wrap) * p.lit;
+    let fill = FILL * wrapped(p.normal, globals.fill.xyz, 0.5) * p.open;
+    let rim = RIM * wrapped(p.normal, globals.rim.xyz, 0.1) * 0.35 * p.open;
+    return key + fill + rim + sky(p.normal) * p.open;
+}
+
+fn fresnel(cosine: f32) -> f32 {
+    return 0.04 + 0.96 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0);
+}
+
+// The lobe of Trowbridge and Reitz (1975) with the visibility term of Kelemen and Szirmay-Kalos (2001).
+fn lobe(p: Point, light: vec3<f32>, roughness: f32) -> f32 {
+    let half_way = unit(p.view + light, p.normal);
+    let n_h = max(dot(p.normal, half_way), 0.0);
+    let l_h = max(dot(light, half_way), 0.05);
+    let a = roughness * roughness;
+    let d = n_h * n_h * (a * a - 1.0) + 1.0;
+    return max(dot(p.normal, light), 0.0) * a * a / (12.566 * d * d * l_h * l_h) * fresnel(l_h);
+}
+
+// ---- noise -----------------------------------------------------------------------------------------------------
+
+// A rotation without symmetry, so that the noise's lattice lies along no axis of the head.
+const SKEW: mat3x3<f32> = mat3x3<f32>(
+    vec3<f32>(0.7268, 0.4423, -0.5254),
+    vec3<f32>(-0.1612, 0.8522, 0.4977),
+    vec3<f32>(0.6678, -0.2795, 0.6899),
+);
+
+// White noise smeared along the hair, minus its mean; about -1 to 1, four independent channels. `width` is that of a
+// streak in metres. Line integral convolution after Cabral and Leedom (1993), along the tangent.
+fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
+    let scale = SKEW / (width * 64.0);
+    var sum = vec4<f32>(0.0);
+    for (var i = 0; i < 5; i++) {
+        let s = (f32(i) - 2.0) * 1.9 * width;
+        sum += textureSampleLevel(noise_block, noise_sampler, scale * (position + along * s), 0.0);
+    }
+    return (sum / 5.0 - 0.5) * 6.8;
+}
+
+// Smooth noise of blobs `width` metres across, about -1 to 1.
+fn blobs(position: vec3<f32>, width: f32) -> vec4<f32> {
+    let coarse = textureSampleLevel(noise_block, noise_sampler, SKEW * position / (width * 64.0), 0.0);
+    let fine = textureSampleLevel(noise_block, noise_sampler, position.zxy * 2.1 / (width * 64.0), 0.0);
+    return (coarse + 0.5 * fine - 0.75) * 2.6;
+}
+
+fn scrambled(cell: vec3<i32>) -> vec3<f32> {
+    var h = bitcast<vec3<u32>>(cell) * vec3<u32>(1664525u, 22695477u, 1103515245u) + vec3<u32>(1013904223u);
+    h.x += h.y * h.z;
+    h.y += h.z * h.x;
+    h.z += h.x * h.y;
+    h ^= h >> vec3<u32>(16u);
+    h.x += h.y * h.z;
+    h.y += h.z * h.x;
+    h.z += h.x * h.y;
+    return vec3<f32>(h & vec3<u32>(0xffffu)) / 65535.0;
+}
+
+// Cobbles after Worley (1996): xyz points from the nearest centre outwards, w is the height, 1 on a cobble and 0 in
+// the furrow between two.
+fn cobbles(position: vec3<f32>) -> vec4<f32> {
+    let base = floor(position);
+    var first = 9.0;
+    var second = 9.0;
+    var outward = vec3<f32>(0.0);
+    for (var i = 0; i < 27; i++) {
+        let cell = base + vec3<f32>(f32(i % 3), f32((i / 3) % 3), f32(i / 9)) - 1.0;
+        let offset = position - (cell + 0.15 + 0.7 * scrambled(vec3<i32>(cell)));
+        let d = dot(offset, offset);
+        if d < first {
+            second = first;
+            first = d;
+            outward = offset;
+        } else if d < second {
+            second = d;
+        }
+    }
+    return vec4<f32>(outward, smoothstep(0.0, 0.35, sqrt(second) - sqrt(first)));
+}
+
+// ---- surfaces --------------------------------------------------------------------------------------------------
+
+fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
+    var p = at;
+    let size = globals.measures.x;
+    let smooth_normal = p.normal;
+    var along = flow - p.normal * dot(flow, p.normal);
+    along = unit(along, unit(cross(p.normal, vec3<f32>(1.0, 0.0, 0.0)), vec3<f32>(0.0, 0.0, 1.0)));
+
+    // Two widths of streaks; the finer one fades where a pixel spans more than it.
+    let pixel = max(length(dpdx(p.position)), length(dpdy(p.position)));
+    let fine_width = 0.0013 * size;
+    let lock_width = 0.0042 * size;
+    let clump = blobs(p.position, 0.012 * size);
+    let lean = unit(along + cross(p.normal, along) * clump.x * 0.35, along);
+    let fine = streaks(p.position, lean, fine_width) * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)) * fur;
+    let locks = streaks(p.position, lean, lock_width) * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)) * fur;
+    let mottle = blobs(p.position, 0.035 * size).y * fur;
+
+    let sideways = cross(p.normal, lean);
+    p.normal = unit(p.normal + sideways * (fine.y * 0.30 + locks.y * 0.34) + lean * (locks.z * 0.16), p.normal);
+    let shade = fine.x * 0.20 + locks.x * 0.20 + mottle * 0.10;
+    let albedo = colour * exp(shade);
+
+    let facing = clamp(dot(smooth_normal, p.view), 0.0, 1.0);
+    var light = albedo * diffuse(p, mix(0.2, 0.45, fur));
+
+    // Two highlights along the hair, after Kajiya and Kay (1989) and the shifts of Scheuermann (2004).
+    let half_way = unit(p.view + globals.key.xyz, p.normal);
+    let first = unit(lean + smooth_normal * (0.10 + 0.05 * fine.w), lean);
+    let second = unit(lean + smooth_normal * (-0.18 + 0.10 * fine.z), lean);
+    let sin_first = sqrt(max(1.0 - pow(dot(first, half_way), 2.0), 0.0));
+    let sin_second = sqrt(max(1.0 - pow(dot(second, half_way), 2.0), 0.0));
+    let reached = p.lit * clamp(dot(smooth_normal, globals.key.xyz) * 1.5 + 0.1, 0.0, 1.0);
+    let gleam = vec3<f32>(0.016) * pow(sin_first, 40.0) + (albedo * 0.20 + 0.006) * pow(sin_second, 12.0);
+    light += KEY * gleam * reached * fur;
+
+    // Tips that stand off the outline catch what comes from behind and above.
+    let edge = pow(1.0 - facing, 3.0);
+    let behind = RIM * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
+    let tips = mix(albedo, vec3<f32>(1.0), 0.12) * (1.0 + 0.35 * fine.x);
+    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + KEY * 0.12 * p.lit) * edge * fur * p.open;
+    return light;
+}
+
+// Moist bare skin. `grain`: cobbles a head's size; `roughness` of the film on it.
+fn leather(at: Point, colour: vec3<f32>, gloss: f32, grain: f32, relief: f32, roughness: f32) -> vec3<f32> {
+    var p = at;
+    let smooth_normal = p.normal;
+    let pixel = max(length(dpdx(p.position)), length(dpdy(p.position))) * grain / globals.measures.x;
+    let seen = 1.0 - smoothstep(0.25, 0.8, pixel);
+    let cobble = cobbles(p.position * grain / globals.measures.x);
+    let outward = cobble.xyz - p.normal * dot(cobble.xyz, p.normal);
+    p.normal = unit(p.normal + outward * relief * seen, p.normal);
+    let furrow = mix(1.0, 0.55 + 0.45 * cobble.w, seen * min(relief, 1.0));
+    let albedo = colour * furrow;
+    var light = albedo * diffuse(p, 0.25);
+    let wet = gloss * p.open;
+    let broad = lobe(p, globals.key.xyz, 0.55) * 2.0;
+    let sharp = lobe(p, globals.key.xyz, roughness);
+    light += KEY * p.lit * wet * furrow * (broad + sharp);
+    light += RIM * wet * (lobe(p, globals.rim.xyz, 0.35) + 0.5 * lobe(p, globals.rim.xyz, 0.6));
+    light += FILL * wet * lobe(p, globals.fill.xyz, 0.4);
+    let mirror = reflect(-p.view, unit(mix(p.normal, smooth_normal, 0.4), p.normal));
+    light += studio(mirror, 0.5) * wet * furrow * fresnel(dot(p.view, p.normal)) * 0.7;
+    return light;
+}
+
+fn eye(p: Point, colour: vec3<f32>) -> vec3<f32> {
+    // The upper lid and its lashes keep the sky off the upper part of the ball.
+    let under_lid = 1.0 - 0.55 * smoothstep(0.05, 0.75, dot(p.normal, globals.up.xyz));
+    let soft = Point(p.position, p.normal, p.view, mix(0.35, 1.0, p.lit), p.open);
+    var light = colour * diffuse(soft, 0.4) * under_lid;
+    // Light that enters the cornea on one side glows in the iris on the other.
+    let across = max(dot(p.normal, unit(p.view * 0.6 - globals.key.xyz, p.view)), 0.0);
+    light += colour * KEY * 0.35 * across * across * p.lit;
+    let mirror = reflect(-p.view, p.normal);
+    let cosine = dot(p.view, p.normal);
+    let window = smoothstep(0.945, 0.962, dot(mirror, globals.key.xyz));
+    let second = smoothstep(0.86, 0.93, dot(mirror, globals.fill.xyz));
+    light += KEY * window * 0.95 + FILL * second * 0.22;
+    light += sky(mirror) * fresnel(cosine) * 1.1 * under_lid * p.open;
+    return light;
+}
+
+// ---- film ------------------------------------------------------------------------------------------------------
+
+// A shoulder that starts late and never clips; the toe keeps dark coats dark. Colours are bent by their brightest
+// channel in part, so that pale coats keep their hue.
+fn film(light: vec3<f32>) -> vec3<f32> {
+    let x = max(light, vec3<f32>(0.0)) * 0.62;
+    let each = x * (1.0 + x * 0.09) / (1.0 + x * 0.78);
+    let peak = max(max(x.r, x.g), max(x.b, 1e-5));
+    let bent = peak * (1.0 + peak * 0.09) / (1.0 + peak * 0.78);
+    return clamp(mix(each, x * bent / peak, 0.5), vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+fn encoded(linear: vec3<f32>) -> vec3<f32> {
+    let low = linear * 12.92;
+    let high = 1.055 * pow(max(linear, vec3<f32>(1e-5)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, linear <= vec3<f32>(0.0031308));
+}
+
+@fragment
+fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    var view = globals.eye.xyz;
+    if globals.eye.w > 0.5 {
+        view = unit(globals.eye.xyz - in.position, vec3<f32>(0.0, 0.0, 1.0));
+    }
+    var normal = unit(in.normal, view);
+    if !front {
+        normal = -normal;
+    }
+    let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
+    let point = Point(in.position, normal, view, shadow(in.position, normal), open);
+    let colour = max(in.colour, vec3<f32>(0.0));
+    let fur = clamp(in.surface.x, 0.0, 1.0);
+    let gloss = clamp(in.surface.y, 0.0, 1.0);
+
+    var light: vec3<f32>;
+    switch kind.code.x {
+        case NOSE: {
+            light = leather(point, colour, max(gloss, 0.6), 260.0, 0.75, 0.24);
+        }
+        case LIP: {
+            light = leather(point, colour, max(gloss, 0.35), 420.0, 0.35, 0.38);
+        }
+        case MOUTH: {
+            light = leather(point, colour, max(gloss, 0.7), 180.0, 0.2, 0.22);
+        }
+        case EYE: {
+            light = eye(point, colour);
+        }
+        case CAP: {
+            light = colour * diffuse(point, 0.3);
+        }
+        default: {
+            light = coat(point, colour, in.flow, fur);
+            // Bare or moist margins shade off into the coat.
+            if gloss > 0.02 {
+                let bare = leather(point, colour, gloss, 300.0, 0.4, 0.3);
+                light = mix(light, bare, gloss * (1.0 - fur));
+            }
+        }
+    }
+    return vec4<f32>(encoded(film(light)), 1.0);
+}

@@ -1,0 +1,132 @@
+//! What every shader reads: one uniform block for a picture.
+
+use super::camera::Camera;
+use glam::{Mat4, Vec3, Vec4};
+
+/// The block `Globals` of every file of `shaders/`, member by member.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct Globals {
+    clip_from_head: Mat4,
+    shadow_from_head: Mat4,
+    eye: Vec4,
+    key: Vec4,
+    fill: Vec4,
+    rim: Vec4,
+    up: Vec4,
+    background_top: Vec4,
+    background_bottom: Vec4,
+    measures: Vec4,
+    viewport: Vec4,
+}
+
+/// Where a lamp stands: degrees around the vertical from the camera, and above the horizontal.
+struct Lamp {
+    azimuth: f32,
+    elevation: f32,
+}
+
+// A portrait studio that turns with the camera, so that every view is lit from its upper left; heights stay.
+const KEY: Lamp = Lamp { azimuth: -38.0, elevation: 42.0 };
+const FILL: Lamp = Lamp { azimuth: 48.0, elevation: 8.0 };
+const RIM: Lamp = Lamp { azimuth: 152.0, elevation: 38.0 };
+
+/// The sphere around all that is drawn, in the head's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extent {
+    pub centre: Vec3,
+    pub radius: f32,
+}
+
+impl Extent {
+    /// Around the box between two corners; an empty box gives a small sphere at the origin.
+    pub(super) fn of_box((low, high): (Vec3, Vec3)) -> Self {
+        if !(low.is_finite() && high.is_finite()) {
+            return Self { centre: Vec3::ZERO, radius: 0.1 };
+        }
+        Self { centre: (low + high) * 0.5, radius: ((high - low).length() * 0.5).max(1e-3) }
+    }
+}
+
+impl Globals {
+    /// `size`: of the picture in pixels; `light_turn`: of the studio around the vertical, radians; `shadow_texels`:
+    /// side of the shadow map; `background`: top and bottom as they stand in the file, sRGB.
+    pub(super) fn new(
+        camera: &Camera,
+        extent: Extent,
+        size: [u32; 2],
+        light_turn: f32,
+        shadow_texels: u32,
+        background: [Vec4; 2],
+    ) -> Self {
+        let [width, height] = size.map(|s| s.max(1) as f32);
+        let head_from_world = camera.world_from_head().transpose();
+        let towards = |lamp: &Lamp| {
+            let azimuth = camera.azimuth + light_turn + lamp.azimuth.to_radians();
+            let elevation = lamp.elevation.to_radians();
+            let level = libm::cosf(elevation);
+            let direction = Vec3::new(libm::sinf(azimuth) * level, libm::sinf(elevation), libm::cosf(azimuth) * level);
+            (head_from_world * direction).extend(0.0)
+        };
+        let key = towards(&KEY);
+        let (eye, perspective) = camera.eye_in_head();
+        let reach = extent.radius + (camera.world_from_head() * extent.centre - camera.target).length();
+        let pixel = camera.height_at_target() / height;
+        Self {
+            clip_from_head: camera.clip_from_head(width / height, reach),
+            shadow_from_head: shadow_from_head(key.truncate(), extent),
+            eye: eye.extend(perspective),
+            key,
+            fill: towards(&FILL),
+            rim: towards(&RIM),
+            up: (head_from_world * Vec3::Y).extend(0.0),
+            background_top: background[0],
+            background_bottom: background[1],
+            measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, 0.0),
+            viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
+        }
+    }
+}
+
+/// Texture coordinates and depth in the key light's map: a parallel projection around the extent.
+fn shadow_from_head(key: Vec3, extent: Extent) -> Mat4 {
+    let side = key.cross(Vec3::Z).try_normalize().unwrap_or(Vec3::X);
+    let radius = extent.radius * 1.02;
+    let view = glam::camera::rh::view::look_at_mat4(extent.centre + key * 2.0 * radius, extent.centre, side);
+    let clip = glam::camera::rh::proj::directx::orthographic(-radius, radius, -radius, radius, radius, 3.0 * radius);
+    let texture_from_clip =
+        Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0)) * Mat4::from_scale(Vec3::new(0.5, -0.5, 1.0));
+    texture_from_clip * clip * view
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::camera::{Lens, View};
+
+    #[test]
+    fn the_shadow_map_holds_the_whole_sphere() {
+        let extent = Extent { centre: Vec3::new(0.01, 0.02, 0.05), radius: 0.2 };
+        let key = Vec3::new(-0.5, 0.6, 0.6).normalize_or_zero();
+        let shadow = shadow_from_head(key, extent);
+        for direction in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z, key, -key] {
+            let p = shadow.project_point3(extent.centre + direction * extent.radius);
+            assert!(p.cmpge(Vec3::ZERO).all() && p.cmple(Vec3::ONE).all(), "{direction} falls on {p}");
+        }
+        let near = shadow.project_point3(extent.centre + key * extent.radius);
+        assert!(near.z < 0.1, "what is near the lamp is near in the map");
+    }
+
+    #[test]
+    fn the_key_light_stands_at_the_upper_left_of_every_picture() {
+        for view in View::NAMED {
+            let mut camera = Camera::at(view, None, Lens::default());
+            camera.elevation = camera.elevation.min(0.5);
+            let extent = Extent { centre: Vec3::ZERO, radius: 0.1 };
+            let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2]);
+            let key = camera.world_from_head() * globals.key.truncate();
+            let [right, up, _] = camera.axes_in_world();
+            assert!(key.dot(right) < -0.2 && key.dot(up) > 0.1, "{view:?}");
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! The head's surfaces, one draw for each run of a material.
+
+use super::head_buffers::{HeadBuffers, buffer};
+use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
+use super::targets::{COLOUR, DEPTH, SAMPLES};
+use super::{noise, shadow_pass::ShadowPass};
+use crate::frame::Material;
+
+/// Distance between two entries of the material block: the largest alignment that any device asks for.
+const STRIDE: u32 = 256;
+
+const MATERIALS: [Material; 6] =
+    [Material::Coat, Material::Nose, Material::Lip, Material::Mouth, Material::Eye, Material::Cap];
+
+/// The number `mesh.wgsl` knows a material by.
+fn code(material: Material) -> u32 {
+    match material {
+        Material::Coat => 0,
+        Material::Nose => 1,
+        Material::Lip => 2,
+        Material::Mouth => 3,
+        Material::Eye => 4,
+        Material::Cap => 5,
+    }
+}
+
+/// Pipeline and bindings that do not change with the head.
+#[derive(Debug)]
+pub(super) struct MeshPass {
+    pipeline: wgpu::RenderPipeline,
+    bindings: wgpu::BindGroup,
+}
+
+impl MeshPass {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        sources: &ShaderSources,
+        globals: &wgpu::BindGroupLayout,
+        shadow: &ShadowPass,
+    ) -> Result<Self, ShaderError> {
+        let own = bindings_layout(device);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("mesh"),
+            bind_group_layouts: &[Some(globals), Some(&own)],
+            immediate_size: 0,
+        });
+        let module = sources.compile(device, ShaderFile::Mesh)?;
+        let pipeline = build_checked(device, ShaderFile::Mesh, || pipeline(device, &module, &layout))?;
+        Ok(Self { pipeline, bindings: bindings(device, queue, &own, shadow) })
+    }
+
+    /// Draws every run; the globals are bound as group 0.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers) {
+        pass.set_pipeline(&self.pipeline);
+        let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface];
+        for (slot, buffer) in (0..).zip(values) {
+            pass.set_vertex_buffer(slot, buffer.slice(..));
+        }
+        pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for run in &head.runs {
+            pass.set_bind_group(1, &self.bindings, &[code(run.material) * STRIDE]);
+            pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
+        }
+    }
+}
+
+fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+    let attributes: [[wgpu::VertexAttribute; 1]; 5] = [
+        wgpu::vertex_attr_array![0 => Float32x3],
+        wgpu::vertex_attr_array![1 => Float32x3],
+        wgpu::vertex_attr_array![2 => Float32x3],
+        wgpu::vertex_attr_array![3 => Float32x3],
+        wgpu::vertex_attr_array![4 => Float32x3],
+    ];
+    let buffers = attributes.each_ref().map(|attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride: 12, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("mesh"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &buffers,
+        },
+        // Both sides: one looks into nostrils and into an open mouth.
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(COLOUR.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let texture =
+        |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let types = [
+        wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: None,
+        },
+        texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
+        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+        texture(wgpu::TextureSampleType::Float { filterable: true }, wgpu::TextureViewDimension::D3),
+        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+    ];
+    let entries: Vec<_> = (0..)
+        .zip(types)
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
+}
+
+fn bindings(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    layout: &wgpu::BindGroupLayout,
+    shadow: &ShadowPass,
+) -> wgpu::BindGroup {
+    let materials = buffer(device, "materials", MATERIALS.len() * STRIDE as usize, wgpu::BufferUsages::UNIFORM);
+    for material in MATERIALS.map(code) {
+        queue.write_buffer(&materials, u64::from(material * STRIDE), bytemuck::bytes_of(&[material, 0, 0, 0]));
+    }
+    let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::LessEqual),
+        ..Default::default()
+    });
+    let repeating = device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("noise"),
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        address_mode_w: wgpu::AddressMode::Repeat,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    });
+    let noise = noise::texture(device, queue);
+    let material = wgpu::BufferBinding { buffer: &materials, offset: 0, size: wgpu::BufferSize::new(16) };
+    let resources = [
+        wgpu::BindingResource::Buffer(material),
+        wgpu::BindingResource::TextureView(&shadow.map),
+        wgpu::BindingResource::Sampler(&comparison),
+        wgpu::BindingResource::TextureView(&noise),
+        wgpu::BindingResource::Sampler(&repeating),
+    ];
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("mesh"), layout, entries: &entries })
+}

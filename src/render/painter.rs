@@ -1,0 +1,172 @@
+//! All passes of a picture, and the head they draw: once per device.
+
+use super::camera::Camera;
+use super::globals::{Extent, Globals};
+use super::ground_pass::{Background, GroundPass};
+use super::head_buffers::{HeadBuffers, buffer};
+use super::mesh_pass::MeshPass;
+use super::shader_source::{ShaderError, ShaderSources};
+use super::shadow_pass::{self, ShadowPass};
+use super::targets::Targets;
+use super::wire_pass::{Lines, WirePass};
+use crate::frame::Frame;
+
+/// What is shown of a head.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Surfaces only.
+    #[default]
+    Shaded,
+    /// Surfaces, and every edge of the refined mesh.
+    Wireframe,
+    /// Surfaces, and every edge of the control mesh.
+    Control,
+}
+
+/// How one picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drawing {
+    /// From where.
+    pub camera: Camera,
+    /// What of the head.
+    pub shading: Shading,
+    /// In front of what.
+    pub background: Background,
+    /// The lights turned about the vertical, radians; 0 leaves the key light at the upper left of the picture.
+    pub light_turn: f32,
+    /// Pixels per unit of line width: 1, or the window's scale factor.
+    pub pixels_per_point: f32,
+}
+
+impl Drawing {
+    /// A shaded head before the default ground.
+    pub fn new(camera: Camera) -> Self {
+        Self {
+            camera,
+            shading: Shading::Shaded,
+            background: Background::default(),
+            light_turn: 0.0,
+            pixels_per_point: 1.0,
+        }
+    }
+}
+
+/// Pipelines once per device and shader text; the head's buffers once per topology.
+#[derive(Debug)]
+pub struct Painter {
+    passes: Passes,
+    globals_layout: wgpu::BindGroupLayout,
+    globals: wgpu::Buffer,
+    globals_bindings: wgpu::BindGroup,
+    head: Option<HeadBuffers>,
+}
+
+#[derive(Debug)]
+struct Passes {
+    ground: GroundPass,
+    shadow: ShadowPass,
+    mesh: MeshPass,
+    wire: WirePass,
+}
+
+impl Passes {
+    fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        sources: &ShaderSources,
+        globals: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ShaderError> {
+        let shadow = ShadowPass::new(device, sources, globals)?;
+        Ok(Self {
+            ground: GroundPass::new(device, sources, globals)?,
+            mesh: MeshPass::new(device, queue, sources, globals, &shadow)?,
+            wire: WirePass::new(device, sources, globals)?,
+            shadow,
+        })
+    }
+}
+
+impl Painter {
+    /// Compiles the shaders.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, sources: &ShaderSources) -> Result<Self, ShaderError> {
+        let globals_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("globals"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let globals = buffer(device, "globals", size_of::<Globals>(), wgpu::BufferUsages::UNIFORM);
+        let globals_bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("globals"),
+            layout: &globals_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
+        });
+        let passes = Passes::new(device, queue, sources, &globals_layout)?;
+        Ok(Self { passes, globals_layout, globals, globals_bindings, head: None })
+    }
+
+    /// Takes other shader texts. On an error everything stays as it was.
+    pub fn reload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        sources: &ShaderSources,
+    ) -> Result<(), ShaderError> {
+        self.passes = Passes::new(device, queue, sources, &self.globals_layout)?;
+        Ok(())
+    }
+
+    /// Forgets the head: to be called when frames come from another pipeline, whose revisions count anew.
+    pub fn forget(&mut self) {
+        self.head = None;
+        self.passes.wire.forget();
+    }
+
+    /// Uploads what changed since the last frame, and records one picture of it.
+    pub fn draw(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &Frame<'_>,
+        drawing: &Drawing,
+    ) {
+        let head = match &mut self.head {
+            Some(head) if head.fits(frame) => {
+                head.update(queue, frame);
+                head
+            }
+            other => other.insert(HeadBuffers::new(device, queue, frame)),
+        };
+        let lines = match drawing.shading {
+            Shading::Shaded => None,
+            Shading::Wireframe => Some(Lines::Refined),
+            Shading::Control => Some(Lines::Control),
+        };
+        if let Some(lines) = lines {
+            self.passes.wire.load(device, queue, frame, lines, drawing.pixels_per_point);
+        }
+        let extent = Extent::of_box(frame.bounds());
+        let edges = drawing.background.edges();
+        let globals =
+            Globals::new(&drawing.camera, extent, targets.size, drawing.light_turn, shadow_pass::TEXELS, edges);
+        queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
+
+        self.passes.shadow.draw(encoder, &self.globals_bindings, head);
+        let mut pass = targets.begin(encoder);
+        pass.set_bind_group(0, &self.globals_bindings, &[]);
+        self.passes.ground.draw(&mut pass);
+        self.passes.mesh.draw(&mut pass, head);
+        if lines.is_some() {
+            self.passes.wire.draw(&mut pass);
+        }
+    }
+}

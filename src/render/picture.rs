@@ -1,0 +1,82 @@
+//! Pixels in memory: straight-alpha sRGB bytes, row by row from the top left.
+
+/// An RGBA picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Four bytes a pixel (sRGB red, green, blue, straight alpha); length: 4 · width · height.
+    pub rgba: Vec<u8>,
+}
+
+impl Picture {
+    /// One colour all over.
+    pub fn filled(width: u32, height: u32, rgba: [u8; 4]) -> Self {
+        let n_pixels = width as usize * height as usize;
+        Self { width, height, rgba: rgba.repeat(n_pixels) }
+    }
+
+    /// Replaces the pixels under `other`, whose top left corner comes to (x, y); what hangs over is cut.
+    pub fn paste(&mut self, other: &Self, x: u32, y: u32) {
+        let columns = other.width.min(self.width.saturating_sub(x)) as usize;
+        for row in 0..other.height.min(self.height.saturating_sub(y)) {
+            let to = ((y + row) as usize * self.width as usize + x as usize) * 4;
+            let from = row as usize * other.width as usize * 4;
+            self.rgba[to..to + columns * 4].copy_from_slice(&other.rgba[from..from + columns * 4]);
+        }
+    }
+
+    /// Half as wide and high, each pixel the mean of four; an odd last row or column is dropped.
+    pub fn halved(&self) -> Self {
+        let (width, height) = (self.width / 2, self.height / 2);
+        let mut rgba = Vec::with_capacity(width as usize * height as usize * 4);
+        let stride = self.width as usize * 4;
+        for y in 0..height as usize {
+            for x in 0..width as usize {
+                let at = 2 * y * stride + 8 * x;
+                let block = [at, at + 4, at + stride, at + stride + 4];
+                let alpha: u32 = block.iter().map(|&i| u32::from(self.rgba[i + 3])).sum();
+                for channel in 0..3 {
+                    let sum: u32 =
+                        block.iter().map(|&i| u32::from(self.rgba[i + channel]) * u32::from(self.rgba[i + 3])).sum();
+                    rgba.push(if alpha == 0 { 0 } else { ((sum + alpha / 2) / alpha) as u8 });
+                }
+                rgba.push(((alpha + 2) / 4) as u8);
+            }
+        }
+        Self { width, height, rgba }
+    }
+
+    /// A PNG file. The same pixels give the same bytes.
+    pub fn to_png(&self) -> Result<Vec<u8>, png::EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.rgba)?;
+        writer.finish()?;
+        Ok(bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_paste_over_the_edge_is_cut() {
+        let mut below = Picture::filled(4, 4, [0, 0, 0, 255]);
+        below.paste(&Picture::filled(3, 3, [255; 4]), 2, 3);
+        assert_eq!(below.rgba.iter().filter(|&&b| b == 255).count(), 14 + 2 * 4);
+    }
+
+    #[test]
+    fn halving_weighs_colours_by_their_alpha() {
+        let picture = Picture { width: 2, height: 2, rgba: [[200, 0, 0, 255], [0; 4], [0; 4], [0; 4]].concat() };
+        assert_eq!(picture.halved().rgba, [200, 0, 0, 64]);
+    }
+}

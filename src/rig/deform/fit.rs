@@ -1,0 +1,252 @@
+//! Lays the control mesh on the implicit head.
+//!
+//! The *start* is the base head moved by the pinned vertices' displacements, spread over the mesh by the bilaplacian
+//! (a constant linear map, computed once). Then a fixed number of rounds smooths the displacement from that start and
+//! projects to the surface. Both depend on the measures alone, so the result is a function of them; the number of rounds
+//! is chosen so that more would move nothing that can be seen (a test measures how little).
+
+use crate::rig::control::{HalfMesh, HalfRings};
+use crate::rig::handles::{Handles, NONE};
+use crate::rig::implicit::{Implicit, Layer};
+use glam::Vec3;
+
+/// A constant linear map from the displacements of the held vertices to those of the free ones.
+#[derive(Clone, Debug)]
+struct Spread {
+    free: Vec<u16>,
+    held: Vec<u16>,
+    /// Row by row: `free.len()` × `held.len()`.
+    weights: Vec<f32>,
+}
+
+impl Spread {
+    /// Minimises the sum of squared Laplacians of one coordinate's displacement. `sign` is the coordinate's factor under
+    /// reflection: -1 for x (whose midline is then held at zero), 1 for y and z.
+    fn new(rings: &HalfRings, midline: &[bool], held: &[bool], sign: f64) -> Self {
+        let n = held.len();
+        let fixed = |v: usize| held[v] || (sign < 0.0 && midline[v]);
+        let free: Vec<u16> = (0..n).filter(|&v| !fixed(v)).map(|v| v as u16).collect();
+        let held: Vec<u16> = (0..n).filter(|&v| held[v]).map(|v| v as u16).collect();
+        let mut column = vec![None; n];
+        for (k, &v) in free.iter().enumerate() {
+            column[v as usize] = Some(k);
+        }
+        for (k, &v) in held.iter().enumerate() {
+            column[v as usize] = Some(free.len() + k);
+        }
+        let (nf, nh) = (free.len(), held.len());
+        let width = nf + nh;
+        // Normal equations of the Laplacian rows of the free vertices and of the held ones beside them.
+        let mut normal = vec![0.0f64; nf * width];
+        let mut row = vec![0.0f64; width];
+        for v in 0..n {
+            let touches = column[v].is_some_and(|c| c < nf)
+                || rings.of(v).any(|(u, _)| column[u].is_some_and(|c| c < nf));
+            if !touches {
+                continue;
+            }
+            row.fill(0.0);
+            let own = if column[v].is_some_and(|c| c < nf) { 1.0 } else { 0.15 };
+            if let Some(c) = column[v] {
+                row[c] += own;
+            }
+            let share = own / rings.valence(v) as f64;
+            for (u, across) in rings.of(v) {
+                if let Some(c) = column[u] {
+                    row[c] -= share * if across { sign } else { 1.0 };
+                }
+            }
+            let entries: Vec<usize> = (0..width).filter(|&c| row[c] != 0.0).collect();
+            for &a in entries.iter().filter(|&&a| a < nf) {
+                for &b in &entries {
+                    normal[a * width + b] += row[a] * row[b];
+                }
+            }
+        }
+        let weights = solve(&mut normal, nf, nh);
+        Self { free, held, weights }
+    }
+
+    fn apply(&self, moved: &[f32], mut write: impl FnMut(usize, f32)) {
+        for (row, &v) in self.weights.chunks_exact(self.held.len()).zip(&self.free) {
+            // Eight sums side by side, so that the compiler may use vectors; their order is fixed.
+            let mut sums = [0.0f32; 8];
+            let (w, m) = (row.chunks_exact(8), moved.chunks_exact(8));
+            let tail: f32 = w.remainder().iter().zip(m.remainder()).map(|(a, b)| a * b).sum();
+            for (w, m) in w.zip(m) {
+                for k in 0..8 {
+                    sums[k] += w[k] * m[k];
+                }
+            }
+            let [a, b, c, d, e, f, g, h] = sums;
+            write(v as usize, ((a + e) + (b + f)) + ((c + g) + (d + h)) + tail);
+        }
+    }
+}
+
+/// Cholesky in place; returns `-inverse(N_ff) N_fh`, row by row.
+fn solve(normal: &mut [f64], nf: usize, nh: usize) -> Vec<f32> {
+    let width = nf + nh;
+    let at = |r: usize, c: usize| r * width + c;
+    for j in 0..nf {
+        for k in 0..j {
+            let f = normal[at(j, k)];
+            if f != 0.0 {
+                for i in j..nf {
+                    normal[at(i, j)] -= normal[at(i, k)] * f;
+                }
+            }
+        }
+        let pivot = normal[at(j, j)].max(1e-12).sqrt();
+        for i in j..nf {
+            normal[at(i, j)] /= pivot;
+        }
+    }
+    let mut out = vec![0.0f32; nf * nh];
+    let mut x = vec![0.0f64; nf];
+    for h in 0..nh {
+        for i in 0..nf {
+            let mut sum = -normal[at(i, nf + h)];
+            for k in 0..i {
+                sum -= normal[at(i, k)] * x[k];
+            }
+            x[i] = sum / normal[at(i, i)];
+        }
+        for i in (0..nf).rev() {
+            let mut sum = x[i];
+            for k in i + 1..nf {
+                sum -= normal[at(k, i)] * x[k];
+            }
+            x[i] = sum / normal[at(i, i)];
+        }
+        for (i, x) in x.iter().enumerate() {
+            out[i * nh + h] = *x as f32;
+        }
+    }
+    out
+}
+
+/// The constant part of the fit.
+#[derive(Clone, Debug)]
+pub struct FitPlan {
+    spread: [Spread; 2],
+    /// Free vertices in pairs of one layer, for the two-lane sampler.
+    pairs: Vec<(u16, u16, Layer)>,
+    free: Vec<u16>,
+    orbit: Vec<(u16, u16, u16)>,
+}
+
+/// Layer of every half vertex: the lips part the surfaces in front of the mouth's corner.
+pub fn layers(handles: &Handles, n: usize) -> Vec<Layer> {
+    let mut layers = vec![Layer::Whole; n];
+    for i in 1..11 {
+        for &v in handles.s[i].iter().filter(|&&v| v != NONE) {
+            layers[v as usize] = Layer::Upper;
+        }
+    }
+    for i in 3..11 {
+        for &v in &handles.l[i][10..15] {
+            layers[v as usize] = Layer::Lower;
+        }
+    }
+    layers
+}
+
+impl FitPlan {
+    /// `pinned` vertices stay where the features put them; `guides` only shape the start.
+    pub fn new(
+        half: &HalfMesh,
+        rings: &HalfRings,
+        handles: &Handles,
+        pinned: &[bool],
+        guides: &[bool],
+        leather: &[bool],
+    ) -> Self {
+        let n = half.n_half();
+        let held: Vec<bool> = (0..n).map(|v| pinned[v] || guides[v] || leather[v]).collect();
+        let free: Vec<u16> = (0..n).filter(|&v| !pinned[v] && !leather[v]).map(|v| v as u16).collect();
+        let layer = layers(handles, n);
+        let mut pairs = Vec::new();
+        for kind in [Layer::Upper, Layer::Lower, Layer::Whole] {
+            let of_kind: Vec<u16> = free.iter().copied().filter(|&v| layer[v as usize] == kind).collect();
+            pairs.extend(of_kind.chunks(2).map(|c| (c[0], c[c.len() - 1], kind)));
+        }
+        let orbit = (0..12).map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();
+        let spread = [-1.0, 1.0].map(|sign| Spread::new(rings, &half.midline, &held, sign));
+        Self { spread, pairs, free, orbit }
+    }
+
+    /// Moves the free vertices of `at` (length: the half mesh) from the base by the displacements of the held ones, which
+    /// are in place in `at` already. Leather counts as unmoved relative to its base loop.
+    pub fn start(&self, base: &[Vec3], at: &mut [Vec3], scratch: &mut Vec<f32>) {
+        for (axis, which) in [(0, 0), (1, 1), (2, 1)] {
+            let spread = &self.spread[which];
+            scratch.clear();
+            scratch.extend(spread.held.iter().map(|&v| at[v as usize][axis] - base[v as usize][axis]));
+            spread.apply(scratch, |v, moved| at[v][axis] = base[v][axis] + moved);
+            if axis == 0 {
+                for &v in &self.free {
+                    let v = v as usize;
+                    if base[v].x == 0.0 {
+                        at[v].x = 0.0;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Rounds of smoothing the displacement from `start` and projecting to the surface.
+    pub fn relax(
+        &self,
+        surface: &Implicit,
+        rings: &HalfRings,
+        start: &[Vec3],
+        at: &mut [Vec3],
+        moved: &mut [Vec3],
+        eye_r: f32,
+        rounds: usize,
+    ) {
+        for _ in 0..rounds {
+            for (m, (a, s)) in moved.iter_mut().zip(at.iter().zip(start)) {
+                *m = *a - *s;
+            }
+            for &v in &self.free {
+                let v = v as usize;
+                at[v] = start[v] + (moved[v] + rings.mean(v, moved)) * 0.5;
+            }
+            self.keep_orbit(at, eye_r);
+            for _ in 0..2 {
+                self.project(surface, at);
+            }
+        }
+    }
+
+    /// The orbit's loop stays outside the lid's fold.
+    pub fn keep_orbit(&self, at: &mut [Vec3], eye_r: f32) {
+        for &(orbit, fold, rim) in &self.orbit {
+            let (fold, rim) = (at[fold as usize], at[rim as usize]);
+            let out = (fold - rim).normalize_or_zero();
+            let lack = 0.26 * eye_r - (at[orbit as usize] - fold).dot(out);
+            if lack > 0.0 {
+                at[orbit as usize] += out * lack;
+            }
+        }
+    }
+
+    /// One Newton step of every free vertex.
+    pub fn project(&self, surface: &Implicit, at: &mut [Vec3]) {
+        for &(a, b, layer) in &self.pairs {
+            let (a, b) = (a as usize, b as usize);
+            let (pa, pb) = (at[a], at[b]);
+            let [sa, sb] = surface.sample2(pa, pb, layer);
+            let on_midline = |p: Vec3, q: Vec3| if p.x == 0.0 { Vec3::new(0.0, q.y, q.z) } else { q };
+            at[a] = on_midline(pa, Implicit::step(pa, sa, 0.8));
+            at[b] = on_midline(pb, Implicit::step(pb, sb, 0.8));
+        }
+    }
+
+    /// Vertices that the fit moves.
+    pub fn free(&self) -> &[u16] {
+        &self.free
+    }
+}

@@ -1,0 +1,41 @@
+//! Lids: margins on the eyeball, a fold around them that runs into the skin, and a pole behind the ball.
+
+use super::{Pins, sin_cos};
+use crate::rig::implicit::Layer;
+use crate::rig::proportions::Proportions;
+use glam::{Vec3, vec3};
+
+/// Axes of the left eye: lateral, up along the lids, and the direction of gaze.
+pub fn eye_axes(s: &Proportions) -> [Vec3; 3] {
+    let (sin, cos) = sin_cos(s.eye_yaw);
+    let gaze = vec3(sin, 0.0, cos);
+    let (lateral, up) = (vec3(cos, 0.0, -sin), Vec3::Y);
+    let (sc, cc) = sin_cos(s.eye_cant);
+    [lateral * cc + up * sc, up * cc - lateral * sc, gaze]
+}
+
+pub(super) fn place(pins: &mut Pins) {
+    let s = pins.shape;
+    let (eye, r) = (s.eye(), s.eye_r);
+    let [a, b, g] = eye_axes(s);
+    let on_ball = |x: f32, y: f32, radius: f32| {
+        let z = (radius * radius - x * x - y * y).max(0.01);
+        eye + (a * x + b * y + g * z.sqrt()) * r
+    };
+    for k in 0..12 {
+        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0);
+        // The upper lid is the higher arch; the tear duct draws the medial corner down a little.
+        let x = -cos * s.eye_w;
+        let y = sin * s.eye_open * if sin > 0.0 { 0.92 } else { 0.74 } - if k == 0 { 0.06 } else { 0.0 };
+        pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
+        pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
+        let fold = on_ball(
+            x * 1.20,
+            y * if sin > 0.0 { 1.36 } else { 1.16 } - if k == 0 { 0.06 } else { 0.0 },
+            1.16,
+        );
+        let skin = pins.surface.project(fold, Layer::Whole, 4);
+        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.62);
+    }
+    pins.set(pins.handles.ep, eye - g * (0.9 * r));
+}

@@ -1,0 +1,131 @@
+//! Stations of the two midlines and a few guides at the sides, found on the surface from outside.
+
+use super::{Pins, sin_cos};
+use crate::rig::implicit::Layer;
+use glam::{Vec3, vec3};
+
+/// Parts of the way from the nose pad's upper edge to the nasion, rings 1 to 8.
+const MUZZLE: [f32; 8] = [0.12, 0.235, 0.36, 0.49, 0.63, 0.78, 0.90, 1.0];
+/// Parts of the cranial length behind the nasion, rings 9 to 16.
+const CRANIUM: [f32; 8] = [0.08, 0.172, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
+/// Head units along the neck's axis, rings 17 to 19.
+const NECK: [f32; 3] = [2.2, 5.2, 9.0];
+/// Degrees below forward of the chin's fan.
+const CHIN_FAN: [f32; 4] = [14.0, 36.0, 56.0, 74.0];
+
+pub(super) fn place(pins: &mut Pins) {
+    dorsal(pins);
+    ventral(pins);
+    sides(pins);
+}
+
+fn dorsal(pins: &mut Pins) {
+    let s = pins.shape;
+    let h = pins.handles;
+    let edge = s.muzzle_from_head(pins.at[h.s[0][0] as usize]).z;
+    for (k, f) in MUZZLE.into_iter().enumerate() {
+        let z = edge * (1.0 - f);
+        let from = s.head_from_muzzle(vec3(0.0, s.bridge0() + 3.5, z));
+        let down = s.head_from_muzzle(Vec3::NEG_Y);
+        pins.trace(h.s[1 + k][0], from, down, Layer::Upper);
+    }
+    for (k, f) in CRANIUM.into_iter().enumerate() {
+        let from = vec3(0.0, s.cran_h + 2.5 + s.dome.max(0.0), -f * s.cran_len);
+        pins.trace(h.s[9 + k][0], from, Vec3::NEG_Y, Layer::Whole);
+    }
+    // Philtrum: from the nose pad down to the lip.
+    let (top, lip) = (pins.at[h.s[0][9] as usize], pins.at[h.s[3][9] as usize]);
+    for i in 1..3 {
+        let t = i as f32 / 3.0;
+        let p = top + (lip - top) * t;
+        let forward = s.head_from_muzzle(Vec3::Z);
+        pins.trace(h.s[i][9], p + forward * 2.0, -forward, Layer::Upper);
+    }
+    let (start, dir) = s.neck_axis();
+    let up = vec3(0.0, -dir.z, dir.y);
+    for (k, d) in NECK.into_iter().enumerate() {
+        let c = start + dir * d;
+        pins.trace(h.s[17 + k][0], c + up * s.neck_d, -up, Layer::Whole);
+    }
+}
+
+fn ventral(pins: &mut Pins) {
+    let s = pins.shape;
+    let h = pins.handles;
+    let jz = s.jaw_z();
+    let root = vec3(0.0, s.lip1() - 0.18 * s.jaw_d, jz - 1.75);
+    for (k, degrees) in CHIN_FAN.into_iter().enumerate() {
+        let (sin, cos) = sin_cos(degrees.to_radians());
+        let out = vec3(0.0, -sin, cos);
+        let (from, out) = (s.head_from_muzzle(root + out * 5.0), s.head_from_muzzle(out));
+        pins.trace(h.l[3][10 + k], from, -out, Layer::Lower);
+    }
+    let back = (jz - 4.95).min(0.6);
+    let up = s.head_from_muzzle(Vec3::Y);
+    for i in 3..11 {
+        let t = (i - 3) as f32 / 7.0;
+        let z = jz - 1.75 + (back - (jz - 1.75)) * t;
+        let from = s.head_from_muzzle(vec3(0.0, s.lip0() - 1.5 * s.jaw_d - 4.0, z));
+        pins.trace(h.l[i][14], from, up, Layer::Lower);
+    }
+    // From the jaw's root to the end of the neck, at even steps, across the throat.
+    let (start, dir) = s.neck_axis();
+    let below = vec3(0.0, dir.z, -dir.y);
+    let from = pins.at[h.l[10][14] as usize];
+    let end = start + dir * NECK[2] + below * (0.5 * s.neck_d);
+    for i in 11..20 {
+        let t = (i - 10) as f32 / 9.0;
+        let p = from + (end - from) * t;
+        let out = (Vec3::NEG_Y * (1.0 - t) + below * t).normalize_or_zero();
+        pins.trace(h.l[i][14], p + out * 6.0, -out, Layer::Whole);
+    }
+}
+
+/// Guides: they shape the start of the fit and are free afterwards.
+fn sides(pins: &mut Pins) {
+    let s = pins.shape;
+    let h = pins.handles;
+    let cl = s.cran_len;
+    let from_side = |pins: &mut Pins, v: u16, y: f32, z: f32, layer: Layer| {
+        let p = s.head_from_muzzle(vec3(16.0, y, z));
+        pins.guide(v, p, Vec3::NEG_X, layer);
+    };
+    let edge = s.muzzle_from_head(pins.at[h.s[0][0] as usize]).z;
+    for (i, f) in [(2, 0.24), (4, 0.42), (6, 0.66)] {
+        let z = edge * (1.0 - f);
+        let t = f * 0.9;
+        let mid = 0.5 * (s.bridge1() + s.lip1()) * (1.0 - t) + 0.5 * (s.bridge0() + s.lip0()) * t;
+        from_side(pins, h.s[i][6], mid, z, Layer::Upper);
+    }
+    for (v, y, z) in [
+        (h.s[11][6], s.zyg_y + 0.2, -0.20 * cl),
+        (h.s[12][6], s.zyg_y, -0.33 * cl),
+        (h.s[13][6], s.zyg_y, -0.46 * cl),
+        (h.s[12][8], s.zyg_y - 2.2, -0.30 * cl),
+        (h.s[14][8], s.zyg_y - 2.0, -0.55 * cl),
+        (h.s[12][3], 0.3 * s.cran_h, -0.35 * cl),
+    ] {
+        let p = vec3(16.0, y, z);
+        pins.guide(v, p, Vec3::NEG_X, Layer::Whole);
+    }
+    for i in [8, 10] {
+        let z = pins.at[h.l[i][14] as usize].z + 0.6;
+        from_side(pins, h.l[i][11], s.lip0() - 0.6 * s.jaw_d, z, Layer::Lower);
+    }
+    // Round the neck's end.
+    let (start, dir) = s.neck_axis();
+    let up = vec3(0.0, -dir.z, dir.y);
+    for (ring, d) in [(17, NECK[0]), (18, NECK[1]), (19, NECK[2])] {
+        let c = start + dir * d;
+        for (v, degrees) in
+            [(h.s[ring][2], 25.0_f32), (h.s[ring][5], 65.0), (h.s[ring][8], 103.0), (h.l[ring][11], 140.0)]
+        {
+            if ring < 19 && v != h.s[ring][5] {
+                continue;
+            }
+            let (sin, cos) = sin_cos(degrees.to_radians());
+            let out = up * cos + Vec3::X * sin;
+            pins.guide(v, c + out * s.neck_d.max(s.neck_w), -out, Layer::Whole);
+        }
+    }
+}
