@@ -1,1 +1,3 @@
-//! Mesh file formats, from and to bytes.
+//! Mesh file formats, from and to bytes. Nothing here touches the file system.
+
+pub mod obj;

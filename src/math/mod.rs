@@ -1,1 +1,6 @@
 //! Arithmetic that gives the same bits everywhere, and the named spaces.
+
+pub mod fnv;
+pub mod frames;
+pub mod ops;
+pub mod rng;

@@ -1,0 +1,166 @@
+//! The frame's inner loop: control positions in, refined positions and normals out.
+
+use glam::Vec3;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::lane::Lane;
+use super::normals::face_normals;
+use super::plan::Plan;
+use super::stencil::StencilTable;
+
+/// Rows that one task takes: enough to pay for handing it over, few enough to balance.
+const CHUNK: usize = 4096;
+/// More threads than any machine has use for; a larger number is taken as this one.
+const MAX_THREADS: usize = 256;
+
+/// What an [`Evaluator`] lends out until the next call.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    /// One for each vertex of the plan's last level.
+    pub positions: &'a [Vec3],
+    /// Unit vectors, as many: area-weighted over the faces around, +Y where those have no area.
+    pub normals: &'a [Vec3],
+    /// Three for each face of the last level, counter-clockwise.
+    pub indices: &'a [u32],
+}
+
+/// Owns the buffers of an evaluation. Once it has seen a plan it allocates nothing more for that plan, with one thread.
+///
+/// Each value is one sum in one order, so the bits do not depend on the number of threads.
+#[derive(Debug)]
+pub struct Evaluator {
+    fingerprint: u64,
+    /// Two levels in turn: the one being read and the one being written.
+    coarse: Vec<Lane>,
+    fine: Vec<Lane>,
+    positions: Vec<Vec3>,
+    face_normals: Vec<Lane>,
+    normals: Vec<Vec3>,
+    /// None with one thread.
+    pool: Option<ThreadPool>,
+}
+
+impl Evaluator {
+    /// Buffers for a plan, and one thread.
+    pub fn new(plan: &Plan) -> Evaluator {
+        let mut evaluator = Evaluator {
+            fingerprint: plan.fingerprint(),
+            coarse: Vec::new(),
+            fine: Vec::new(),
+            positions: Vec::new(),
+            face_normals: Vec::new(),
+            normals: Vec::new(),
+            pool: None,
+        };
+        evaluator.fit(plan);
+        evaluator
+    }
+
+    /// Sets the number of threads: 0 and 1 mean the caller's own. Where the system gives no more threads, evaluation
+    /// stays on the caller's; results are the same.
+    pub fn set_threads(&mut self, n: usize) {
+        let n = n.clamp(1, MAX_THREADS);
+        if n != self.threads() {
+            self.pool = if n == 1 { None } else { ThreadPoolBuilder::new().num_threads(n).build().ok() };
+        }
+    }
+
+    /// The number of threads in use.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
+    }
+
+    /// Positions and normals of the plan's last level from `control`: finite positions, one for each control vertex.
+    ///
+    /// # Panics
+    /// Where `control` has another length than the plan has control vertices.
+    pub fn evaluate<'a>(&'a mut self, plan: &'a Plan, control: &[Vec3]) -> Surface<'a> {
+        self.fit(plan);
+        let mut positions = std::mem::take(&mut self.positions);
+        self.refine(plan, control, &mut positions);
+        self.positions = positions;
+        self.find_normals(plan);
+        Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
+    }
+
+    /// The same stencils on any three channels (a colour, a flow): `control` has one value for each control vertex,
+    /// `out` one for each vertex of the plan's last level. The surface lent out before is not disturbed.
+    ///
+    /// # Panics
+    /// Where a length is another.
+    pub fn evaluate_attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+        self.fit(plan);
+        self.refine(plan, control, out);
+    }
+
+    /// Makes the buffers fit; does nothing where they do.
+    fn fit(&mut self, plan: &Plan) {
+        if self.fingerprint == plan.fingerprint() && self.positions.len() == plan.n_vertices() {
+            return;
+        }
+        self.fingerprint = plan.fingerprint();
+        let n_between = plan.n_vertices_at(plan.levels().saturating_sub(1));
+        self.coarse.resize(n_between, Lane::default());
+        self.fine.resize(n_between, Lane::default());
+        self.positions.resize(plan.n_vertices(), Vec3::ZERO);
+        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
+        self.face_normals.resize(plan.n_faces(), Lane::default());
+    }
+
+    fn refine(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+        assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
+        assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
+        let Some((last, steps)) = plan.tables().split_last() else {
+            out.copy_from_slice(control);
+            return;
+        };
+        for (lane, &value) in self.coarse.iter_mut().zip(control) {
+            *lane = value.into();
+        }
+        for table in steps {
+            let (source, target) = (&self.coarse[..table.n_sources()], &mut self.fine[..table.n_rows()]);
+            apply(self.pool.as_ref(), table, source, target);
+            std::mem::swap(&mut self.coarse, &mut self.fine);
+        }
+        apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], out);
+    }
+
+    fn find_normals(&mut self, plan: &Plan) {
+        let Evaluator { positions, face_normals: flat, normals, pool, .. } = self;
+        let (indices, around) = (plan.indices(), &plan.vertex_faces);
+        let Some(pool) = pool else {
+            face_normals(indices, positions, flat);
+            around.gather(0, flat, normals);
+            return;
+        };
+        pool.install(|| {
+            flat.par_chunks_mut(CHUNK)
+                .zip(indices.par_chunks(3 * CHUNK))
+                .for_each(|(flat, indices)| face_normals(indices, positions, flat));
+            normals
+                .par_chunks_mut(CHUNK)
+                .enumerate()
+                .for_each(|(chunk, normals)| around.gather(chunk * CHUNK, flat, normals));
+        });
+    }
+}
+
+fn apply<O: From<Lane> + Send>(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [O]) {
+    match pool {
+        Some(pool) if out.len() > CHUNK => pool.install(|| {
+            out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| table.apply_rows(chunk * CHUNK, source, out));
+        }),
+        _ => table.apply_rows(0, source, out),
+    }
+}
+
+/// Positions and normals in vectors of their own: for examples and single shots. Frames keep an [`Evaluator`].
+///
+/// # Panics
+/// Where `control` has another length than the plan has control vertices.
+pub fn evaluate_once(plan: &Plan, control: &[Vec3]) -> (Vec<Vec3>, Vec<Vec3>) {
+    let mut evaluator = Evaluator::new(plan);
+    evaluator.evaluate(plan, control);
+    (evaluator.positions, evaluator.normals)
+}

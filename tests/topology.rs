@@ -1,0 +1,264 @@
+//! The directed-edge mesh: what it must hold on every shape, and what it must refuse.
+
+use std::collections::BTreeSet;
+
+use londra::mesh::shapes::{Shape, cabinet, disk, fan, grid_with_hole, pillow, tetrahedron, torus, triangle, tube};
+use londra::mesh::{DedgeId, DedgeMesh, FaceId, InvariantError, MeshError, VertexId};
+
+fn mesh(shape: &Shape) -> DedgeMesh {
+    shape.mesh().unwrap_or_else(|e| panic!("{}: {e}", shape.name))
+}
+
+#[test]
+fn a_shape_of_the_cabinet_breaks_an_invariant() {
+    for shape in cabinet() {
+        let mesh = mesh(&shape);
+        mesh.validate().unwrap_or_else(|e| panic!("{}: {e}", shape.name));
+        assert_eq!(mesh.n_vertices(), shape.positions.len());
+        assert_eq!(mesh.indices(), shape.triangles.as_flattened(), "{}: origins are not the index buffer", shape.name);
+    }
+}
+
+#[test]
+fn two_shapes_of_the_cabinet_share_a_name() {
+    let shapes = cabinet();
+    let names: BTreeSet<_> = shapes.iter().map(|s| &s.name).collect();
+    assert_eq!(names.len(), shapes.len());
+}
+
+#[test]
+fn moves_around_a_triangle_do_not_come_back() {
+    for shape in cabinet() {
+        let mesh = mesh(&shape);
+        for d in mesh.dedges() {
+            assert_eq!(mesh.next(mesh.next(mesh.next(d))), d);
+            assert_eq!(mesh.prev(mesh.next(d)), d);
+            assert_eq!(mesh.face(mesh.next(d)), mesh.face(d));
+            assert_eq!(mesh.face(d).dedge(d.0 % 3), d);
+            assert_eq!(mesh.target(d), mesh.origin(mesh.next(d)));
+        }
+    }
+}
+
+/// The dumb judge: every pair of directed edges is compared.
+#[test]
+fn twins_differ_from_a_search_over_all_pairs() {
+    for shape in cabinet().iter().filter(|s| s.triangles.len() < 130) {
+        let mesh = mesh(shape);
+        for d in mesh.dedges() {
+            let expected =
+                mesh.dedges().find(|&t| mesh.origin(t) == mesh.target(d) && mesh.target(t) == mesh.origin(d));
+            assert_eq!(mesh.twin(d), expected, "{} {d}", shape.name);
+            assert_eq!(mesh.is_boundary_dedge(d), expected.is_none());
+        }
+    }
+}
+
+#[test]
+fn a_ring_misses_a_neighbour_or_turns_the_wrong_way() {
+    for shape in cabinet() {
+        let mesh = mesh(&shape);
+        for v in mesh.vertices() {
+            let ring: Vec<_> = mesh.ring(v).collect();
+            let expected: BTreeSet<_> = mesh
+                .dedges()
+                .filter_map(|d| match (mesh.origin(d), mesh.target(d)) {
+                    (a, b) if a == v => Some(b),
+                    (a, b) if b == v => Some(a),
+                    _ => None,
+                })
+                .collect();
+            assert_eq!(ring.iter().copied().collect::<BTreeSet<_>>(), expected, "{} {v}", shape.name);
+            assert_eq!(ring.len(), expected.len(), "{} {v}: a neighbour twice", shape.name);
+            assert_eq!(ring.len(), mesh.valence(v));
+            let n_faces = mesh.faces_around(v).count();
+            assert_eq!(ring.len(), n_faces + usize::from(mesh.is_boundary_vertex(v)), "{} {v}", shape.name);
+            for (i, d) in mesh.outgoing_dedges(v).enumerate() {
+                assert_eq!(mesh.origin(d), v);
+                assert_eq!(mesh.target(d), ring[i]);
+                assert_eq!(
+                    mesh.target(mesh.next(d)),
+                    ring[(i + 1) % ring.len()],
+                    "{} {v}: not counter-clockwise",
+                    shape.name
+                );
+            }
+            if mesh.is_boundary_vertex(v) {
+                assert!(mesh.twin(mesh.outgoing(v)).is_none(), "{} {v}: does not start at the boundary", shape.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn euler_characteristic_is_not_that_of_the_surface() {
+    let expected = |name: &str| match name {
+        "grid(4,3)" | "triangle" => 1,
+        "grid_with_hole" | "torus(6,5)" | "tube(7,2)" => 0,
+        "two_components" => 3,
+        open if open.starts_with("fan") || open.starts_with("disk") => 1,
+        _ => 2,
+    };
+    for shape in cabinet() {
+        assert_eq!(mesh(&shape).euler_characteristic(), expected(&shape.name), "{}", shape.name);
+    }
+}
+
+#[test]
+fn a_boundary_is_lost_or_runs_the_wrong_way() {
+    let loops = |shape: &Shape| {
+        let all = mesh(shape).boundary_loops();
+        all.into_iter().map(|l| l.into_iter().map(|v| v.0).collect::<Vec<_>>()).collect::<Vec<_>>()
+    };
+    assert!(loops(&torus(6, 5)).is_empty());
+    assert_eq!(loops(&triangle()), [[0, 1, 2]]);
+    assert_eq!(loops(&disk(4)), [[1, 2, 3, 4]], "the surface is not on the left");
+    assert_eq!(loops(&fan(3)), [[0, 1, 2, 3, 4]]);
+    let holed = loops(&grid_with_hole());
+    assert_eq!(holed.iter().map(Vec::len).collect::<Vec<_>>(), [20, 4]);
+    assert_eq!(loops(&tube(7, 2)).iter().map(Vec::len).collect::<Vec<_>>(), [7, 7]);
+    for shape in cabinet() {
+        let mesh = mesh(&shape);
+        let on_loops: usize = mesh.boundary_loops().iter().map(Vec::len).sum();
+        assert_eq!(on_loops, mesh.n_boundary_edges(), "{}", shape.name);
+    }
+}
+
+#[test]
+fn malformed_input_is_accepted_or_blamed_on_the_wrong_element() {
+    use MeshError as E;
+    let (f, v) = (FaceId, VertexId);
+    let cases: Vec<(&str, usize, Vec<[u32; 3]>, MeshError)> = vec![
+        ("nothing", 3, vec![], E::NoFaces),
+        ("no vertices either", 0, vec![], E::NoFaces),
+        ("too many", usize::MAX, vec![[0, 1, 2]], E::TooMany { n_vertices: usize::MAX, n_faces: 1 }),
+        (
+            "an index one too large",
+            4,
+            vec![[0, 1, 2], [0, 2, 4]],
+            E::IndexOutOfRange { face: f(1), index: 4, n_vertices: 4 },
+        ),
+        (
+            "the index that means none",
+            3,
+            vec![[0, u32::MAX, 2]],
+            E::IndexOutOfRange { face: f(0), index: u32::MAX, n_vertices: 3 },
+        ),
+        ("a corner twice (ab)", 3, vec![[0, 1, 2], [1, 1, 2]], E::DegenerateTriangle { face: f(1), vertex: v(1) }),
+        ("a corner twice (bc)", 3, vec![[0, 2, 2]], E::DegenerateTriangle { face: f(0), vertex: v(2) }),
+        ("a corner twice (ca)", 3, vec![[2, 1, 2]], E::DegenerateTriangle { face: f(0), vertex: v(2) }),
+        (
+            "neighbours that face opposite ways",
+            4,
+            vec![[0, 1, 2], [0, 1, 3]],
+            E::DuplicateDedge { first: f(0), second: f(1), from: v(0), to: v(1) },
+        ),
+        (
+            "an edge with three triangles",
+            5,
+            vec![[0, 1, 2], [1, 0, 3], [1, 0, 4]],
+            E::DuplicateDedge { first: f(1), second: f(2), from: v(1), to: v(0) },
+        ),
+        (
+            "a triangle twice",
+            3,
+            vec![[0, 1, 2], [1, 2, 0]],
+            E::DuplicateDedge { first: f(0), second: f(1), from: v(0), to: v(1) },
+        ),
+        (
+            "a Möbius strip",
+            5,
+            vec![[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 0], [4, 0, 1]],
+            E::DuplicateDedge { first: f(0), second: f(4), from: v(0), to: v(1) },
+        ),
+        ("a bow tie", 5, vec![[0, 1, 2], [0, 3, 4]], E::NonManifoldVertex { vertex: v(0), reached: 1, faces: 2 }),
+        (
+            "two closed surfaces that touch",
+            7,
+            vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2], [0, 4, 5], [0, 6, 4], [0, 5, 6], [4, 6, 5]],
+            E::NonManifoldVertex { vertex: v(0), reached: 3, faces: 6 },
+        ),
+        (
+            "a closed and an open surface that touch",
+            6,
+            vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2], [3, 4, 5]],
+            E::NonManifoldVertex { vertex: v(3), reached: 1, faces: 4 },
+        ),
+        ("a vertex without a triangle", 4, vec![[0, 1, 3]], E::IsolatedVertex { vertex: v(2) }),
+    ];
+    for (name, n_vertices, triangles, expected) in cases {
+        let found = DedgeMesh::from_triangles(n_vertices, &triangles);
+        assert_eq!(found.as_ref().err(), Some(&expected), "{name}");
+        assert!(expected.to_string().len() > 20, "{name}: the message says too little");
+    }
+}
+
+type Parts = (Vec<u32>, Vec<Option<u32>>, Vec<u32>);
+
+fn parts(shape: &Shape) -> Parts {
+    let mesh = mesh(shape);
+    let twin = mesh.dedges().map(|d| mesh.twin(d).map(|t| t.0)).collect();
+    (mesh.indices().to_vec(), twin, mesh.vertices().map(|v| mesh.outgoing(v).0).collect())
+}
+
+#[test]
+fn sound_parts_are_refused() {
+    for shape in cabinet() {
+        let (origin, twin, outgoing) = parts(&shape);
+        assert_eq!(DedgeMesh::from_parts(origin, twin, outgoing).as_ref(), Ok(&mesh(&shape)), "{}", shape.name);
+    }
+}
+
+#[test]
+fn validate_overlooks_a_corrupted_structure() {
+    use InvariantError as E;
+    let (d, f, v) = (DedgeId, FaceId, VertexId);
+    type Corrupt = fn(&mut Parts);
+    let cases: Vec<(Shape, Corrupt, InvariantError)> = vec![
+        (triangle(), |(o, t, _)| (*o, *t) = (vec![], vec![]), E::Lengths { origins: 0, twins: 0 }),
+        (triangle(), |(o, _, _)| o.push(0), E::Lengths { origins: 4, twins: 3 }),
+        (triangle(), |(_, t, _)| t.truncate(2), E::Lengths { origins: 3, twins: 2 }),
+        (triangle(), |(o, _, _)| o[1] = 3, E::OriginOutOfRange { dedge: d(1), vertex: v(3) }),
+        (triangle(), |(o, _, _)| o[2] = 0, E::DegenerateFace { face: f(0) }),
+        (tetrahedron(), |(_, t, _)| t[0] = Some(12), E::TwinOutOfRange { dedge: d(0), twin: d(12) }),
+        (tetrahedron(), |(_, t, _)| t[0] = Some(0), E::TwinNotMutual { dedge: d(0), twin: d(0) }),
+        (tetrahedron(), |(_, t, _)| t[0] = None, E::TwinNotMutual { dedge: d(5), twin: d(0) }),
+        (
+            pillow(),
+            |(_, t, _)| {
+                t.swap(0, 1);
+                t.swap(5, 4);
+            },
+            E::TwinEnds { dedge: d(0), twin: d(4) },
+        ),
+        (tetrahedron(), |(_, _, g)| g[2] = 99, E::OutgoingOutOfRange { vertex: v(2), dedge: d(99) }),
+        (tetrahedron(), |(_, _, g)| g[2] = g[1], E::OutgoingElsewhere { vertex: v(2), dedge: d(1) }),
+        (disk(4), |(_, _, g)| g[2] = 5, E::OutgoingNotBoundary { vertex: v(2), boundary: d(4) }),
+        (
+            tetrahedron(),
+            |(o, t, _)| {
+                // Two tetrahedra, the second without vertices of its own.
+                o.extend_from_within(..);
+                t.extend_from_within(..);
+                t[12..].iter_mut().for_each(|t| *t = t.map(|t| t + 12));
+            },
+            E::BrokenRing { vertex: v(0), walked: 3, faces: 6 },
+        ),
+        (pillow(), |(_, t, _)| (t[0], t[5]) = (None, None), E::Unjoined { dedge: d(0), other: d(5) }),
+    ];
+    for (shape, corrupt, expected) in cases {
+        let mut broken = parts(&shape);
+        corrupt(&mut broken);
+        let (origin, twin, outgoing) = broken;
+        assert_eq!(DedgeMesh::from_parts(origin, twin, outgoing).err(), Some(expected), "{}", shape.name);
+    }
+}
+
+#[test]
+fn building_takes_more_than_linear_time_at_a_vertex_of_huge_valence() {
+    // With a search per directed edge this would take some 10¹¹ steps.
+    let shape = londra::mesh::shapes::pole(300_000);
+    let mesh = mesh(&shape);
+    assert_eq!(mesh.valence(VertexId(0)), 300_000);
+    assert_eq!(mesh.euler_characteristic(), 2);
+}
