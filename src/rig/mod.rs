@@ -4,6 +4,7 @@
 
 mod control;
 pub mod deform;
+mod flow;
 pub mod handles;
 pub mod implicit;
 mod lanes;
@@ -47,6 +48,7 @@ pub struct Rig {
     mesh: DedgeMesh,
     columns: Vec<usize>,
     plan: DeformPlan,
+    flow: Vec<(u32, u32)>,
 }
 
 /// One head's control positions; buffers are made once and written again for every breed.
@@ -89,8 +91,32 @@ impl Rig {
         let mesh = half.mesh().map_err(ControlError::Mesh)?;
         let columns = columns(table)?;
         let defaults = Measures::from_values(&Breed::defaults(table).values, &columns);
+        let flow = Self::whole_flow(&half, &handles);
         let plan = DeformPlan::new(&half, handles, &Proportions::new(&defaults));
-        Ok(Self { half, mesh, columns, plan })
+        Ok(Self { half, mesh, columns, plan, flow })
+    }
+
+    fn whole_flow(half: &HalfMesh, handles: &Handles) -> Vec<(u32, u32)> {
+        let pairs = flow::pairs(handles, half.n_half());
+        let mirror = half.mirror();
+        let left = pairs.iter().map(|&(a, b)| (u32::from(a), u32::from(b)));
+        let right = pairs.iter().zip(&half.midline).filter(|(_, mid)| !**mid);
+        left.chain(right.map(|(&(a, b), _)| (mirror[a as usize], mirror[b as usize]))).collect()
+    }
+
+    /// Unit direction in which hair lies at every control vertex (`out`: one each), zero where there is none.
+    pub fn flow(&self, control: &[Vec3], out: &mut [Vec3]) {
+        for (to, &(a, b)) in out.iter_mut().zip(&self.flow) {
+            *to = (control[b as usize] - control[a as usize]).normalize_or_zero();
+        }
+    }
+
+    /// Vertices of the whole mesh on the lips' inner sides and how much of the lips' pigment each has, 0 to 1.
+    pub fn inner_lip(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        let mirror = self.half.mirror();
+        let h = self.plan.handles();
+        let inner = (3..11).flat_map(move |i| [(h.mu[i][1], 0.95), (h.ml[i][1], 0.95), (h.mu[i][2], 0.3)]);
+        inner.flat_map(move |(v, pigment)| [(v as usize, pigment), (mirror[v as usize] as usize, pigment)])
     }
 
     /// Connectivity of the whole control mesh.
