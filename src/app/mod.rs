@@ -6,7 +6,7 @@
 mod camera_control;
 pub mod files;
 mod history;
-pub mod heads;
+mod host;
 pub mod input;
 pub mod panels;
 mod run;

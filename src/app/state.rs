@@ -53,9 +53,7 @@ impl Document {
     /// The breed before measures were changed by hand.
     pub fn blended(&self, table: &ParamTable) -> Breed {
         match &self.blend {
-            Some(Blend { partner, weight }) => {
-                Breed::blend(table, &[(&self.base, 1.0 - weight), (partner, *weight)])
-            }
+            Some(Blend { partner, weight }) => Breed::blend(table, &[(&self.base, 1.0 - weight), (partner, *weight)]),
             None => self.base.clone(),
         }
     }
@@ -372,8 +370,9 @@ impl EditorState {
     }
 
     /// A breed has changed on disk: it takes the place of the one with its id, in the list and, as the base, in what
-    /// is edited. Measures changed by hand stay on top.
-    pub fn breed_reloaded(&mut self, breed: Breed, path: &std::path::Path) {
+    /// is edited. Measures changed by hand stay on top. Returns whether anything is different now.
+    pub fn breed_reloaded(&mut self, breed: Breed, path: &std::path::Path) -> bool {
+        let before = (self.breeds.clone(), self.document.clone());
         if let Some(known) = self.breeds.iter_mut().find(|b| b.id == breed.id) {
             *known = breed.clone();
         }
@@ -388,6 +387,7 @@ impl EditorState {
             self.document.base = breed;
         }
         self.resolve();
+        before != (self.breeds.clone(), self.document.clone())
     }
 
     /// The table has changed on disk: breeds loaded with it take the place of the old ones.

@@ -10,7 +10,7 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         let label = ui.label("Search");
         let field = egui::TextEdit::singleline(&mut state.search).hint_text("muzzle, ear, snout…").desired_width(130.0);
         ui.add(field).labelled_by(label.id);
-        if !state.search.is_empty() && ui.small_button("✖").on_hover_text("Clear the search").clicked() {
+        if !state.search.is_empty() && ui.small_button("×").on_hover_text("Clear the search").clicked() {
             state.search.clear();
         }
         ui.checkbox(&mut state.only_changed, "changed");
@@ -25,6 +25,8 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
     }
     let is_narrowed = !state.search.is_empty() || state.only_changed;
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // What a row needs must not widen the panel.
+        ui.set_max_width(ui.available_width());
         for (group, rows) in groups(state, &found) {
             let header = egui::CollapsingHeader::new(RichText::new(&group).strong()).default_open(true);
             let header = header.open(is_narrowed.then_some(true));
@@ -51,8 +53,9 @@ fn groups(state: &EditorState, found: &[usize]) -> Vec<(String, Vec<usize>)> {
     groups
 }
 
-const NUMBER_WIDTH: f32 = 68.0;
-const RESET_WIDTH: f32 = 18.0;
+/// For the number and the reset arrow, points.
+const NUMBER_WIDTH: f32 = 72.0;
+const RESET_WIDTH: f32 = 22.0;
 
 /// Label above; slider, number and reset below.
 fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
@@ -81,18 +84,23 @@ fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
         ui.spacing_mut().item_spacing.x = 4.0;
         let mut value = spec.from_si(state.breed().values[index]);
         let before = value;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - RESET_WIDTH - 8.0).max(60.0);
-        let slider = egui::Slider::new(&mut value, spec.min..=spec.max).show_value(false);
-        let slider = ui.add(slider.step_by(step(spec))).labelled_by(label.id);
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - RESET_WIDTH - 24.0).max(60.0);
+        // Only a hand may round a value to the slider's step.
+        let slider = egui::Slider::new(&mut value, spec.min..=spec.max).show_value(false).step_by(step(spec));
+        let slider = ui.add(slider.clamping(egui::SliderClamping::Edits)).labelled_by(label.id);
         marks(ui, &slider, spec, spec.from_si(state.unchanged().values[index]));
         let number = egui::DragValue::new(&mut value).range(spec.min..=spec.max).suffix(spec.unit.suffix());
-        let number = number.speed((spec.max - spec.min) / 400.0).max_decimals(3).update_while_editing(false);
+        let number = number
+            .speed((spec.max - spec.min) / 400.0)
+            .max_decimals(3)
+            .update_while_editing(false)
+            .clamp_existing_to_range(false);
         let number = ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).labelled_by(label.id);
 
         let doubly = ui.input(|i| i.pointer.button_double_clicked(egui::PointerButton::Primary));
         if (slider.contains_pointer() || label.contains_pointer()) && doubly {
             state.reset(index);
-        } else if value != before {
+        } else if (slider.changed() || number.changed()) && value != before {
             if slider.dragged() || number.dragged() || ui.input(|i| i.pointer.any_down()) {
                 state.begin_gesture();
             }
@@ -100,7 +108,7 @@ fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
         }
         slider.context_menu(|ui| menu(state, ui, index));
         if is_changed {
-            let reset = egui::Button::new("⟲").small().min_size(egui::vec2(RESET_WIDTH, 0.0));
+            let reset = egui::Button::new("↺").small().min_size(egui::vec2(RESET_WIDTH, 0.0));
             let name = format!("Reset {}", spec.label);
             let reset = ui.add(reset).on_hover_text(&name);
             reset.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));

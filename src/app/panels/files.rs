@@ -20,10 +20,10 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         }
     });
     ui.horizontal(|ui| {
-        if ui.add_enabled(state.can_undo(), egui::Button::new("⟲ Undo")).on_hover_text("Ctrl+Z").clicked() {
+        if ui.add_enabled(state.can_undo(), egui::Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
             state.undo();
         }
-        if ui.add_enabled(state.can_redo(), egui::Button::new("⟳ Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
+        if ui.add_enabled(state.can_redo(), egui::Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
             state.redo();
         }
         let label = ui.label("File");

@@ -8,6 +8,20 @@ pub mod view;
 
 use super::input;
 use super::state::{Command, EditorState};
+use std::sync::Arc;
+
+/// Takes the fonts that the program carries: one for reading, one for numbers and signs.
+pub fn set_fonts(ctx: &egui::Context) {
+    let mut fonts = egui::FontDefinitions::empty();
+    let carried = [("text", epaint_default_fonts::UBUNTU_LIGHT), ("numbers", epaint_default_fonts::HACK_REGULAR)];
+    for (name, data) in carried {
+        fonts.font_data.insert(name.to_owned(), Arc::new(egui::FontData::from_static(data)));
+    }
+    let names = |order: [&str; 2]| order.map(str::to_owned).to_vec();
+    fonts.families.insert(egui::FontFamily::Proportional, names(["text", "numbers"]));
+    fonts.families.insert(egui::FontFamily::Monospace, names(["numbers", "text"]));
+    ctx.set_fonts(fonts);
+}
 
 /// The whole window. `picture`: the texture of the head, drawn after this returns. Returns the rectangle it fills,
 /// in points.

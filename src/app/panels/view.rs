@@ -19,7 +19,7 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         ui.separator();
         let label = ui.label("Level");
         let mut level = state.level();
-        ui.spacing_mut().slider_width = 80.0;
+        ui.spacing_mut().slider_width = 60.0;
         let slider = egui::Slider::new(&mut level, 0..=MOST_LEVEL);
         if ui.add(slider).labelled_by(label.id).on_hover_text("Steps of refinement (+ and −)").changed() {
             state.set_level(level);
