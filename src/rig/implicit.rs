@@ -163,11 +163,11 @@ impl Implicit {
         let ropes = |scale: f32| {
             let inset = 0.5 - 0.45 * s.wrinkle;
             let at = [
-                vec3(0.0, bridge0 + 0.55, 0.34 * length),
-                vec3(0.50 * w0, bridge0 + 0.05, 0.32 * length),
+                vec3(0.0, bridge0 + 0.25, 0.32 * length),
+                vec3(0.50 * w0, bridge0 - 0.15, 0.30 * length),
                 vec3(w0, bridge0 - 1.9, 0.20 * length),
             ];
-            let r = [0.42, 0.5, 0.4].map(|r| (r - inset) * scale);
+            let r = [0.62, 0.62, 0.45].map(|r| (r - inset) * scale);
             [Cone::new(at[0], at[1], r[0], r[1]), Cone::new(at[1], at[2], r[1], r[2])]
         };
         Self {
@@ -271,12 +271,7 @@ impl Implicit {
             tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.5, 0.5, 0.8)),
             neck: {
                 let squeeze = vec3(1.0 / neck_x, 1.0, 1.0);
-                Cone::new(
-                    neck_a * squeeze,
-                    (neck_a + neck_dir * 16.0) * squeeze,
-                    0.47 * s.neck_d,
-                    0.56 * s.neck_d,
-                )
+                Cone::new(neck_a * squeeze, (neck_a + neck_dir * 16.0) * squeeze, 0.47 * s.neck_d, 0.56 * s.neck_d)
             },
             neck_x,
             throat: Cone::new(

@@ -10,7 +10,7 @@ use glam::{Vec3, vec3};
 
 const STEPS: usize = 48;
 /// Where along the leather the rings stand.
-const RINGS: [f32; 6] = [0.07, 0.20, 0.38, 0.58, 0.79, 0.965];
+const RINGS: [f32; 6] = [0.07, 0.20, 0.38, 0.58, 0.78, 0.955];
 /// Gap between leather and skin, head units.
 const CLEAR: [f32; 6] = [0.05, 0.14, 0.24, 0.28, 0.30, 0.30];
 
@@ -93,7 +93,7 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; 6] {
 
 /// Position in a section: `u` from the front (-1) to the rear margin (1), on the outer (1) or inner (-1) face.
 fn in_section(e: &EarProportions, s: &Section, part: f32, u: f32, face: f32) -> Vec3 {
-    let hw = half_width(e, part).max(0.12 * e.thickness);
+    let hw = half_width(e, part).max(0.5 * e.thickness);
     let thick = 0.5 * e.thickness * (1.0 - 0.35 * part);
     let bulge = e.cup * hw * (0.5 - u * u);
     let wall = thick * (1.0 - ops::powf(u.abs(), 2.5));

@@ -30,11 +30,7 @@ pub(super) fn place(pins: &mut Pins) {
         let y = if sin > 0.0 { 1.02 * arch } else { -0.78 * arch } * s.eye_open - if k == 0 { 0.05 } else { 0.0 };
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
-        let fold = on_ball(
-            x * 1.20,
-            y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 },
-            1.16,
-        );
+        let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.45);
     }
