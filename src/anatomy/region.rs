@@ -1,7 +1,8 @@
 //! Named areas of the head's skin, for colours and for the fields that move it.
 
 /// An area of the skin. Areas overlap softly: a vertex has a weight in each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Region {
     /// The hairless nose pad (planum nasale).
     Nose,

@@ -248,10 +248,8 @@ impl Builder {
         holes: &[(i32, i32, i32, i32)],
         cross: &[(i32, i32)],
     ) -> Result<(), PatchError> {
-        let inside =
-            |i: i32, j: i32| holes.iter().any(|&(r, c, h, w)| i > r && i < r + h && j > c && j < c + w);
-        let cell_out =
-            |i: i32, j: i32| holes.iter().any(|&(r, c, h, w)| i >= r && i < r + h && j >= c && j < c + w);
+        let inside = |i: i32, j: i32| holes.iter().any(|&(r, c, h, w)| i > r && i < r + h && j > c && j < c + w);
+        let cell_out = |i: i32, j: i32| holes.iter().any(|&(r, c, h, w)| i >= r && i < r + h && j >= c && j < c + w);
         for i in rows.0..=rows.1 {
             for j in cols.0..=cols.1 {
                 if !inside(i, j) {
@@ -304,7 +302,11 @@ impl Builder {
         while i < n || j < m {
             let step_a = j >= m || (i < n && (i + 1) * m <= (j + 1) * n);
             let (p, q, r) = if step_a { (a[i], a[i + 1], b[j]) } else { (a[i], b[j + 1], b[j]) };
-            if step_a { i += 1 } else { j += 1 }
+            if step_a {
+                i += 1
+            } else {
+                j += 1
+            }
             if p != q && q != r && r != p {
                 self.face(p, q, r)?;
             }

@@ -192,13 +192,7 @@ impl Implicit {
                     ),
                     2.5,
                 ),
-                (
-                    Ellipsoid::new(
-                        vec3(0.5 * eye.x, eye.y + 0.35 + 0.5 * dome, eye.z - 1.6),
-                        vec3(1.9, 1.8, 2.4),
-                    ),
-                    1.6,
-                ),
+                (Ellipsoid::new(vec3(0.5 * eye.x, eye.y + 0.35 + 0.5 * dome, eye.z - 1.6), vec3(1.9, 1.8, 2.4)), 1.6),
             ],
             furrow: (
                 Cone::new(vec3(0.0, 1.0, 0.6), vec3(0.0, ch + 0.4, -0.4 * cl), 0.35 + 0.3 * s.furrow, 0.2),
@@ -270,12 +264,7 @@ impl Implicit {
             tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.5, 0.5, 0.8)),
             neck: {
                 let squeeze = vec3(1.0 / neck_x, 1.0, 1.0);
-                Cone::new(
-                    neck_a * squeeze,
-                    (neck_a + neck_dir * 16.0) * squeeze,
-                    0.47 * s.neck_d,
-                    0.56 * s.neck_d,
-                )
+                Cone::new(neck_a * squeeze, (neck_a + neck_dir * 16.0) * squeeze, 0.47 * s.neck_d, 0.56 * s.neck_d)
             },
             neck_x,
             throat: Cone::new(

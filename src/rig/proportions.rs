@@ -268,11 +268,7 @@ impl Proportions {
     }
     /// Middle of the nose pad, muzzle frame.
     pub fn nose_centre(&self) -> Vec3 {
-        vec3(
-            0.0,
-            self.bridge1() + 0.10 - 0.4 * self.nose_h + self.nose_up,
-            self.muz_len - 0.75 + self.nose_out,
-        )
+        vec3(0.0, self.bridge1() + 0.10 - 0.4 * self.nose_h + self.nose_up, self.muz_len - 0.75 + self.nose_out)
     }
     /// Middle of the left eyeball.
     pub fn eye(&self) -> Vec3 {

@@ -40,8 +40,8 @@ impl Spread {
         let mut normal = vec![0.0f64; nf * width];
         let mut row = vec![0.0f64; width];
         for v in 0..n {
-            let touches = column[v].is_some_and(|c| c < nf)
-                || rings.of(v).any(|(u, _)| column[u].is_some_and(|c| c < nf));
+            let touches =
+                column[v].is_some_and(|c| c < nf) || rings.of(v).any(|(u, _)| column[u].is_some_and(|c| c < nf));
             if !touches {
                 continue;
             }

@@ -29,11 +29,7 @@ pub(super) fn place(pins: &mut Pins) {
         let y = sin * s.eye_open * if sin > 0.0 { 0.92 } else { 0.74 } - if k == 0 { 0.06 } else { 0.0 };
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
-        let fold = on_ball(
-            x * 1.20,
-            y * if sin > 0.0 { 1.36 } else { 1.16 } - if k == 0 { 0.06 } else { 0.0 },
-            1.16,
-        );
+        let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.36 } else { 1.16 } - if k == 0 { 0.06 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.62);
     }
