@@ -6,8 +6,16 @@ use super::{Breed, LoadErrors, ParamTable, load_breed, nearest};
 pub const ANATOMY: &str = include_str!("../../rigs/anatomy.ron");
 
 /// Text of each file in `rigs/breeds/`, by id, sorted by id.
-pub const BREEDS: &[(&str, &str)] =
-    &[("labrador", include_str!("../../rigs/breeds/labrador.ron")), ("pug", include_str!("../../rigs/breeds/pug.ron"))];
+pub const BREEDS: &[(&str, &str)] = &[
+    ("beagle", include_str!("../../rigs/breeds/beagle.ron")),
+    ("borzoi", include_str!("../../rigs/breeds/borzoi.ron")),
+    ("bulldog", include_str!("../../rigs/breeds/bulldog.ron")),
+    ("chihuahua", include_str!("../../rigs/breeds/chihuahua.ron")),
+    ("dachshund", include_str!("../../rigs/breeds/dachshund.ron")),
+    ("german_shepherd", include_str!("../../rigs/breeds/german_shepherd.ron")),
+    ("labrador", include_str!("../../rigs/breeds/labrador.ron")),
+    ("pug", include_str!("../../rigs/breeds/pug.ron")),
+];
 
 /// Why a breed of the program could not be had.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

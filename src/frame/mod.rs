@@ -1,5 +1,22 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
+mod eyeball;
 mod parts;
+mod pipeline;
+mod skin;
 
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
+pub use pipeline::{MAX_LEVEL, Pipeline, PipelineError};
+
+/// One 64-bit FNV-1a hash over the bits of each stage of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StageHashes {
+    /// Control positions of the skin, places of the eyes.
+    pub control: u64,
+    /// Positions of every part.
+    pub positions: u64,
+    /// Normals of every part.
+    pub normals: u64,
+    /// Indices of every part.
+    pub indices: u64,
+}

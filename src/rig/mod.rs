@@ -4,6 +4,7 @@
 
 mod control;
 pub mod deform;
+mod flow;
 pub mod handles;
 pub mod implicit;
 mod lanes;
@@ -12,3 +13,148 @@ mod proportions;
 pub use control::{ControlError, HalfMesh, HalfRings};
 pub use handles::Handles;
 pub use proportions::{EarProportions, Measures, Proportions};
+
+use crate::anatomy::{Breed, ParamTable};
+use crate::mesh::DedgeMesh;
+use deform::{DeformPlan, Scratch};
+use glam::Vec3;
+
+/// The head's control mesh as baked.
+pub const HEAD: &str = include_str!("../../assets/head.ron");
+
+/// Why a rig cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RigError {
+    /// The control mesh is wrong.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+    /// The table has no row for a measure that the shape needs.
+    #[error("rigs/anatomy.ron has no measure `{0}`, which the head's shape needs")]
+    MissingMeasure(&'static str),
+}
+
+/// Column in a breed's values of each of [`Measures::IDS`].
+///
+/// # Errors
+/// The first measure that the table lacks.
+pub fn columns(table: &ParamTable) -> Result<Vec<usize>, RigError> {
+    Measures::IDS.iter().map(|id| table.index_of(id).ok_or(RigError::MissingMeasure(id))).collect()
+}
+
+/// The head, immutable: one per program.
+#[derive(Clone, Debug)]
+pub struct Rig {
+    half: HalfMesh,
+    mesh: DedgeMesh,
+    columns: Vec<usize>,
+    plan: DeformPlan,
+    flow: Vec<(u32, u32)>,
+}
+
+/// One head's control positions; buffers are made once and written again for every breed.
+#[derive(Clone, Debug, Default)]
+pub struct Deformed {
+    half: Vec<Vec3>,
+    scratch: Scratch,
+    /// Control positions of the whole mesh, metres, head's frame.
+    pub control: Vec<Vec3>,
+    /// The left eye and the right.
+    pub eyes: [Eye; 2],
+}
+
+/// An eyeball's place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Eye {
+    /// Centre, metres.
+    pub centre: Vec3,
+    /// Radius, metres.
+    pub radius: f32,
+    /// Unit axes: to the dog's left (in the eye's own frame), up, and the direction of gaze.
+    pub axes: [Vec3; 3],
+}
+
+impl Rig {
+    /// The rig that is part of the program.
+    ///
+    /// # Errors
+    /// See [`Rig::new`].
+    pub fn embedded(table: &ParamTable) -> Result<Self, RigError> {
+        Self::new(HalfMesh::parse(HEAD)?, table)
+    }
+
+    /// Prepares a control mesh for a table.
+    ///
+    /// # Errors
+    /// The mesh is no manifold or lacks a vertex, or the table lacks a measure.
+    pub fn new(half: HalfMesh, table: &ParamTable) -> Result<Self, RigError> {
+        let handles = Handles::new(&half)?;
+        let mesh = half.mesh().map_err(ControlError::Mesh)?;
+        let columns = columns(table)?;
+        let defaults = Measures::from_values(&Breed::defaults(table).values, &columns);
+        let flow = Self::whole_flow(&half, &handles);
+        let plan = DeformPlan::new(&half, handles, &Proportions::new(&defaults));
+        Ok(Self { half, mesh, columns, plan, flow })
+    }
+
+    fn whole_flow(half: &HalfMesh, handles: &Handles) -> Vec<(u32, u32)> {
+        let pairs = flow::pairs(handles, half.n_half());
+        let mirror = half.mirror();
+        let left = pairs.iter().map(|&(a, b)| (u32::from(a), u32::from(b)));
+        let right = pairs.iter().zip(&half.midline).filter(|(_, mid)| !**mid);
+        left.chain(right.map(|(&(a, b), _)| (mirror[a as usize], mirror[b as usize]))).collect()
+    }
+
+    /// Unit direction in which hair lies at every control vertex (`out`: one each), zero where there is none.
+    pub fn flow(&self, control: &[Vec3], out: &mut [Vec3]) {
+        for (to, &(a, b)) in out.iter_mut().zip(&self.flow) {
+            *to = (control[b as usize] - control[a as usize]).normalize_or_zero();
+        }
+    }
+
+    /// Vertices of the whole mesh on the lips' inner sides and how much of the lips' pigment each has, 0 to 1.
+    pub fn inner_lip(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        let mirror = self.half.mirror();
+        let h = self.plan.handles();
+        let inner = (3..11).flat_map(move |i| [(h.mu[i][1], 0.95), (h.ml[i][1], 0.95), (h.mu[i][2], 0.3)]);
+        inner.flat_map(move |(v, pigment)| [(v as usize, pigment), (mirror[v as usize] as usize, pigment)])
+    }
+
+    /// Connectivity of the whole control mesh.
+    pub fn mesh(&self) -> &DedgeMesh {
+        &self.mesh
+    }
+
+    /// Names, regions, loops and landmarks of the half.
+    pub fn half(&self) -> &HalfMesh {
+        &self.half
+    }
+
+    /// The constant part of the deformation.
+    pub fn plan(&self) -> &DeformPlan {
+        &self.plan
+    }
+
+    /// A head's proportions from a breed's values (SI, one per row of the table the rig was made for).
+    pub fn proportions(&self, values: &[f32]) -> Proportions {
+        Proportions::new(&Measures::from_values(values, &self.columns))
+    }
+
+    /// Control positions and eyes of one head; `rounds` of the fit are [`deform::ROUNDS`] everywhere but in the test that
+    /// measures how little more of them would change.
+    pub fn deform(&self, values: &[f32], rounds: usize, out: &mut Deformed) {
+        let shape = self.proportions(values);
+        out.half.resize(self.half.n_half(), Vec3::ZERO);
+        out.control.resize(self.mesh.n_vertices(), Vec3::ZERO);
+        self.plan.run(&shape, rounds, &mut out.scratch, &mut out.half);
+        for p in &mut out.half {
+            *p = shape.metres(*p);
+        }
+        self.half.unfold(&out.half, &mut out.control);
+        let axes = deform::eye_axes(&shape).map(|a| shape.direction(a));
+        let left = Eye { centre: shape.metres(shape.eye()), radius: shape.eye_r * shape.scale, axes };
+        let flip = |v: Vec3| Vec3::new(-v.x, v.y, v.z);
+        let right =
+            Eye { centre: flip(left.centre), radius: left.radius, axes: [-flip(axes[0]), flip(axes[1]), flip(axes[2])] };
+        out.eyes = [left, right];
+    }
+}

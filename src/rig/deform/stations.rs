@@ -73,7 +73,8 @@ fn ventral(pins: &mut Pins) {
     let below = vec3(0.0, dir.z, -dir.y);
     let from = pins.at[h.l[10][14] as usize];
     let end = start + dir * NECK[2] + below * (0.5 * s.neck_d);
-    for i in 11..20 {
+    pins.trace(h.l[19][14], start + dir * NECK[2] + below * s.neck_d, -below, Layer::Whole);
+    for i in 11..19 {
         let t = (i - 10) as f32 / 9.0;
         let p = from + (end - from) * t;
         let out = (Vec3::NEG_Y * (1.0 - t) + below * t).normalize_or_zero();
@@ -112,20 +113,18 @@ fn sides(pins: &mut Pins) {
         let z = pins.at[h.l[i][14] as usize].z + 0.6;
         from_side(pins, h.l[i][11], s.lip0() - 0.6 * s.jaw_d, z, Layer::Lower);
     }
-    // Round the neck's end.
+    // Round the neck: its end is cut flat, the ring before it only guided.
     let (start, dir) = s.neck_axis();
     let up = vec3(0.0, -dir.z, dir.y);
-    for (ring, d) in [(17, NECK[0]), (18, NECK[1]), (19, NECK[2])] {
-        let c = start + dir * d;
-        for (v, degrees) in
-            [(h.s[ring][2], 25.0_f32), (h.s[ring][5], 65.0), (h.s[ring][8], 103.0), (h.l[ring][11], 140.0)]
-        {
-            if ring < 19 && v != h.s[ring][5] {
-                continue;
-            }
-            let (sin, cos) = sin_cos(degrees.to_radians());
-            let out = up * cos + Vec3::X * sin;
-            pins.guide(v, c + out * s.neck_d.max(s.neck_w), -out, Layer::Whole);
+    for j in 1..14 {
+        let (sin, cos) = sin_cos(core::f32::consts::PI * j as f32 / 14.0);
+        let out = up * cos + Vec3::X * sin;
+        let reach = s.neck_d.max(s.neck_w);
+        let v = if j < 10 { h.s[19][j] } else { h.l[19][j] };
+        pins.trace(v, start + dir * NECK[2] + out * reach, -out, Layer::Whole);
+        if j % 3 == 2 {
+            let v = if j < 10 { h.s[18][j] } else { h.l[18][j] };
+            pins.guide(v, start + dir * NECK[1] + out * reach, -out, Layer::Whole);
         }
     }
 }

@@ -1,0 +1,88 @@
+//! Baked assets: what is made of the patch file and the table, bit for bit the same each time.
+
+use super::{base, patch};
+use crate::anatomy::{Breed, LoadErrors, ParamTable};
+use crate::rig::{ControlError, HalfMesh, Handles, Measures, Proportions, RigError, columns};
+
+/// The patch file that is part of the program.
+pub const PATCH: &str = include_str!("../../assets/head.patch.ron");
+
+/// One baked file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Baked {
+    /// Path relative to the repository's root.
+    pub path: &'static str,
+    /// Its whole text.
+    pub text: String,
+}
+
+/// Why nothing was baked.
+#[derive(Debug, thiserror::Error)]
+pub enum BakeError {
+    /// The patch file is not RON of the right form.
+    #[error("assets/head.patch.ron:{0}")]
+    Syntax(#[from] ron::error::SpannedError),
+    /// The patch file makes no mesh.
+    #[error("assets/head.patch.ron: {0}")]
+    Patch(#[from] patch::PatchError),
+    /// The table does not load.
+    #[error(transparent)]
+    Table(#[from] LoadErrors),
+    /// The mesh does not fit the shape.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+    /// The table lacks a measure.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+}
+
+/// Makes `assets/head.ron` from a patch file and a table.
+///
+/// # Errors
+/// [`BakeError`] says which of the two is wrong and where.
+pub fn head(patch_text: &str, table: &ParamTable) -> Result<HalfMesh, BakeError> {
+    let file: patch::PatchFile = ron::from_str(patch_text)?;
+    let mut half = patch::build(&file)?;
+    let handles = Handles::new(&half)?;
+    let defaults = Breed::defaults(table);
+    let measures = Measures::from_values(&defaults.values, &columns(table)?);
+    half.base = base::fit(&half, &handles, &Proportions::new(&measures));
+    Ok(half)
+}
+
+/// Makes every baked asset from what is part of the program.
+///
+/// # Errors
+/// See [`head`].
+pub fn all() -> Result<Vec<Baked>, BakeError> {
+    let half = head(PATCH, &ParamTable::embedded()?)?;
+    Ok(vec![Baked { path: "assets/head.ron", text: text(&half) }])
+}
+
+/// The half mesh as RON, a line for each vertex and triangle, so that a change reads well as a difference.
+fn text(half: &HalfMesh) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from(
+        "// Baked by `londra bake` from assets/head.patch.ron and rigs/anatomy.ron. Edit those, not this.\n(\n    version: 1,\n",
+    );
+    let mut list = |name: &str, rows: Vec<String>, per_line: usize| {
+        let _ = writeln!(out, "    {name}: [");
+        for line in rows.chunks(per_line) {
+            let _ = writeln!(out, "        {},", line.join(", "));
+        }
+        let _ = writeln!(out, "    ],");
+    };
+    let numbers = |v: &[u16]| v.iter().map(u16::to_string).collect::<Vec<_>>().join(", ");
+    list("tags", half.tags.iter().map(|t| format!("{t:?}")).collect(), 12);
+    list("midline", half.midline.iter().map(bool::to_string).collect(), 20);
+    list("regions", half.regions.iter().map(|r| r.name().to_owned()).collect(), 10);
+    list("faces", half.faces.iter().map(|f| format!("({})", numbers(f))).collect(), 8);
+    list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 4);
+    list("landmarks", half.landmarks.iter().map(|(id, name, v)| format!("({id:?}, {name:?}, {v})")).collect(), 1);
+    let _ = writeln!(out, "    loops: {{");
+    for (name, l) in &half.loops {
+        let _ = writeln!(out, "        {name:?}: [{}],", numbers(l));
+    }
+    out.push_str("    },\n)\n");
+    out
+}

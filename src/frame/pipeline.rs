@@ -1,0 +1,291 @@
+//! The frame's inner loop: a breed in, drawable parts out. Owns every buffer; in the steady state it allocates nothing.
+//!
+//! Lifetimes: a plan for each level that was asked for, made once; shape buffers written when the values changed; colours
+//! when the look did.
+
+use super::parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
+use super::{StageHashes, eyeball, skin};
+use crate::anatomy::{Breed, Look, ParamTable};
+use crate::math::fnv::Fnv64;
+use crate::rig::{Deformed, Rig, deform};
+use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
+use glam::Vec3;
+use std::sync::Arc;
+
+/// Deepest level of subdivision that a pipeline makes.
+pub const MAX_LEVEL: u32 = 5;
+
+/// Why a pipeline cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PipelineError {
+    /// Deeper than a head needs.
+    #[error("subdivision level is {0}, allowed 0 to {MAX_LEVEL}")]
+    Level(u32),
+    /// The plan cannot be built.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+}
+
+/// Values of one part.
+#[derive(Clone, Debug)]
+struct Values {
+    topology: Arc<PartTopology>,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    colours: Vec<Vec3>,
+    surface: Vec<Vec3>,
+    flow: Vec<Vec3>,
+}
+
+impl Values {
+    fn new(topology: PartTopology) -> Self {
+        let zero = vec![Vec3::ZERO; topology.n_vertices];
+        Self {
+            topology: Arc::new(topology),
+            positions: zero.clone(),
+            normals: zero.clone(),
+            colours: zero.clone(),
+            surface: zero.clone(),
+            flow: zero,
+        }
+    }
+
+    fn part(&self) -> Part<'_> {
+        Part {
+            topology: &self.topology,
+            positions: &self.positions,
+            normals: &self.normals,
+            colours: &self.colours,
+            surface: &self.surface,
+            flow: &self.flow,
+        }
+    }
+}
+
+/// From breeds to frames.
+pub struct Pipeline {
+    rig: Arc<Rig>,
+    level: u32,
+    threads: usize,
+    plan: Arc<Plan>,
+    evaluator: Evaluator,
+    deformed: Deformed,
+    control_flow: Vec<Vec3>,
+    control_colours: Vec<Vec3>,
+    control_surface: Vec<Vec3>,
+    parts: [Values; 4],
+    values: Vec<f32>,
+    look: Option<Look>,
+    revisions: Revisions,
+}
+
+impl Pipeline {
+    /// Builds the plan of a level (0 to [`MAX_LEVEL`]).
+    ///
+    /// # Errors
+    /// A level that is too deep.
+    pub fn new(rig: Arc<Rig>, _table: Arc<ParamTable>, level: u32) -> Result<Self, PipelineError> {
+        let plan = Self::plan(&rig, level)?;
+        let n = rig.mesh().n_vertices();
+        let parts = Self::parts(&rig, &plan);
+        Ok(Self {
+            evaluator: Evaluator::new(&plan),
+            level,
+            threads: 1,
+            deformed: Deformed::default(),
+            control_flow: vec![Vec3::ZERO; n],
+            control_colours: vec![Vec3::ZERO; n],
+            control_surface: vec![Vec3::ZERO; n],
+            parts,
+            values: Vec::new(),
+            look: None,
+            revisions: Revisions { topology: 1, shape: 0, look: 0 },
+            plan: Arc::new(plan),
+            rig,
+        })
+    }
+
+    fn plan(rig: &Rig, level: u32) -> Result<Plan, PipelineError> {
+        if level > MAX_LEVEL {
+            return Err(PipelineError::Level(level));
+        }
+        Ok(Plan::build(rig.mesh(), Scheme::Sqrt3, level)?)
+    }
+
+    fn parts(rig: &Rig, plan: &Plan) -> [Values; 4] {
+        [
+            Values::new(skin::topology(rig, plan)),
+            Values::new(cap_topology(plan)),
+            Values::new(eyeball::topology("eye_L")),
+            Values::new(eyeball::topology("eye_R")),
+        ]
+    }
+
+    /// The level of subdivision.
+    pub fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// Changes the level; the next frame has another topology. The last one stays if this fails.
+    ///
+    /// # Errors
+    /// A level that is too deep.
+    pub fn set_level(&mut self, level: u32) -> Result<(), PipelineError> {
+        if level == self.level {
+            return Ok(());
+        }
+        let plan = Self::plan(&self.rig, level)?;
+        self.parts = Self::parts(&self.rig, &plan);
+        self.evaluator = Evaluator::new(&plan);
+        self.evaluator.set_threads(self.threads);
+        self.plan = Arc::new(plan);
+        self.level = level;
+        self.revisions.topology += 1;
+        self.values.clear();
+        self.look = None;
+        Ok(())
+    }
+
+    /// Threads that evaluate; the bits do not depend on it.
+    pub fn set_threads(&mut self, n: usize) {
+        self.threads = n;
+        self.evaluator.set_threads(n);
+    }
+
+    /// The skin's plan.
+    pub fn skin_plan(&self) -> &Arc<Plan> {
+        &self.plan
+    }
+
+    /// The rig.
+    pub fn rig(&self) -> &Arc<Rig> {
+        &self.rig
+    }
+
+    /// The head of a breed. Recomputes what has changed since the last call and lends out the result.
+    ///
+    /// `breed.values` has one value for each row of the table that the rig was made for.
+    pub fn update(&mut self, breed: &Breed) -> Frame<'_> {
+        if self.values != breed.values {
+            self.shape(&breed.values);
+            self.values.clone_from(&breed.values);
+            self.revisions.shape += 1;
+        }
+        if self.look.as_ref() != Some(&breed.look) {
+            self.paint(&breed.look);
+            self.look = Some(breed.look.clone());
+            self.revisions.look += 1;
+        }
+        self.frame()
+    }
+
+    /// The last frame again.
+    pub fn frame(&self) -> Frame<'_> {
+        Frame {
+            parts: self.parts.iter().map(Values::part).collect(),
+            control: &self.deformed.control,
+            control_indices: self.rig.mesh().indices(),
+            revisions: self.revisions,
+        }
+    }
+
+    fn shape(&mut self, values: &[f32]) {
+        self.rig.deform(values, deform::ROUNDS, &mut self.deformed);
+        let [skin, cap, left, right] = &mut self.parts;
+        let surface = self.evaluator.evaluate(&self.plan, &self.deformed.control);
+        skin.positions.copy_from_slice(surface.positions);
+        skin.normals.copy_from_slice(surface.normals);
+        self.rig.flow(&self.deformed.control, &mut self.control_flow);
+        self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
+        place_cap(&self.plan, &skin.positions, cap);
+        for (eye, part) in self.deformed.eyes.iter().zip([left, right]) {
+            eyeball::place(eye, &mut part.positions, &mut part.normals);
+        }
+    }
+
+    fn paint(&mut self, look: &Look) {
+        skin::paint(&self.rig, look, &mut self.control_colours, &mut self.control_surface);
+        let [skin, cap, left, right] = &mut self.parts;
+        self.evaluator.evaluate_attribute(&self.plan, &self.control_colours, &mut skin.colours);
+        self.evaluator.evaluate_attribute(&self.plan, &self.control_surface, &mut skin.surface);
+        cap.colours.fill(look.base * 0.35);
+        for eye in [left, right] {
+            eyeball::colours(look.iris, &mut eye.colours);
+            eye.surface.fill(Vec3::new(0.0, 1.0, 0.0));
+        }
+    }
+
+    /// One hash for each stage of the last frame: every part in the written order, vertices in canonical order.
+    pub fn hashes(&self) -> StageHashes {
+        let mut control = Fnv64::new();
+        vectors(&mut control, &self.deformed.control);
+        for eye in &self.deformed.eyes {
+            vectors(&mut control, &[eye.centre]);
+            control.f32(eye.radius);
+            vectors(&mut control, &eye.axes);
+        }
+        let (mut positions, mut normals, mut indices) = (Fnv64::new(), Fnv64::new(), Fnv64::new());
+        for part in &self.parts {
+            vectors(&mut positions, &part.positions);
+            vectors(&mut normals, &part.normals);
+        }
+        // The plan's own order, whatever order materials are drawn in.
+        for &i in self.plan.indices().iter().chain(self.parts[1..].iter().flat_map(|p| &p.topology.indices)) {
+            indices.u32(i);
+        }
+        StageHashes {
+            control: control.finish(),
+            positions: positions.finish(),
+            normals: normals.finish(),
+            indices: indices.finish(),
+        }
+    }
+}
+
+fn vectors(hash: &mut Fnv64, vs: &[Vec3]) {
+    for v in vs {
+        for x in v.to_array() {
+            hash.f32(x);
+        }
+    }
+}
+
+/// The neck's end: a fan about the middle of the boundary.
+fn cap_topology(plan: &Plan) -> PartTopology {
+    let n: usize = plan.boundary_loops().iter().map(Vec::len).sum();
+    let mut indices = Vec::new();
+    let mut first = 0;
+    for (k, l) in plan.boundary_loops().iter().enumerate() {
+        let len = l.len() as u32;
+        let middle = (n + k) as u32;
+        for i in 0..len {
+            indices.extend([middle, first + (i + 1) % len, first + i]);
+        }
+        first += len;
+    }
+    let ranges = vec![MaterialRange { material: Material::Cap, start: 0, count: indices.len() as u32 }];
+    PartTopology { name: "neck_cap", n_vertices: n + plan.boundary_loops().len(), indices, ranges }
+}
+
+fn place_cap(plan: &Plan, skin: &[Vec3], cap: &mut Values) {
+    let mut first = 0;
+    let n: usize = plan.boundary_loops().iter().map(Vec::len).sum();
+    for (k, l) in plan.boundary_loops().iter().enumerate() {
+        let mut middle = Vec3::ZERO;
+        for (to, &v) in cap.positions[first..first + l.len()].iter_mut().zip(l) {
+            *to = skin[v as usize];
+            middle += *to;
+        }
+        middle /= l.len() as f32;
+        let ring = &cap.positions[first..first + l.len()];
+        let mut normal = Vec3::ZERO;
+        for i in 0..l.len() {
+            normal += (ring[(i + 1) % l.len()] - middle).cross(ring[i] - middle);
+        }
+        let normal = normal.normalize_or_zero();
+        cap.positions[n + k] = middle;
+        cap.normals[first..first + l.len()].fill(normal);
+        cap.normals[n + k] = normal;
+        first += l.len();
+    }
+}

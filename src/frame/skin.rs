@@ -1,0 +1,89 @@
+//! What the skin's regions are made of: materials of faces, colours and surface qualities of control vertices. Both go
+//! through the same stencils as the positions, so that borders between regions are soft.
+
+use super::parts::{Material, MaterialRange, PartTopology};
+use crate::anatomy::{Look, Region};
+use crate::rig::Rig;
+use crate::subdiv::Plan;
+use glam::{Vec3, vec3};
+
+/// Material of a control face by the regions of its corners.
+fn material(regions: [Region; 3]) -> Material {
+    use Region::{Lid, Mouth, Nose, Nostril};
+    if regions.contains(&Mouth) {
+        Material::Mouth
+    } else if regions.iter().all(|r| matches!(r, Nose | Nostril)) {
+        Material::Nose
+    } else if regions.iter().all(|r| matches!(r, Lid)) {
+        Material::Lip
+    } else {
+        Material::Coat
+    }
+}
+
+/// The skin's faces sorted by material; inside a material in the plan's order.
+pub(super) fn topology(rig: &Rig, plan: &Plan) -> PartTopology {
+    let regions = rig.half().whole_regions();
+    let control = rig.mesh().indices();
+    let of_face: Vec<Material> = control
+        .chunks_exact(3)
+        .map(|f| material([regions[f[0] as usize], regions[f[1] as usize], regions[f[2] as usize]]))
+        .collect();
+    let mut indices = Vec::with_capacity(plan.indices().len());
+    let mut ranges = Vec::new();
+    for wanted in [Material::Coat, Material::Nose, Material::Lip, Material::Mouth] {
+        let start = indices.len() as u32;
+        for (face, &parent) in plan.indices().chunks_exact(3).zip(plan.face_parent()) {
+            if of_face[parent as usize] == wanted {
+                indices.extend_from_slice(face);
+            }
+        }
+        let count = indices.len() as u32 - start;
+        if count > 0 {
+            ranges.push(MaterialRange { material: wanted, start, count });
+        }
+    }
+    PartTopology { name: "skin", n_vertices: plan.n_vertices(), indices, ranges }
+}
+
+/// Colour of a region, linear.
+fn colour(look: &Look, region: Region) -> Vec3 {
+    let coat = look.colour(region);
+    match region {
+        Region::Nose => look.nose,
+        Region::Nostril => look.nose * 0.35,
+        Region::Lid => look.lips * 0.7,
+        // The margin itself is bare and dark; hair comes close to it.
+        Region::UpperLip | Region::LowerLip => coat.lerp(look.lips, 0.72),
+        Region::Mouth => look.mouth,
+        _ => coat,
+    }
+}
+
+/// Fur, gloss, occlusion of a region.
+fn surface(look: &Look, region: Region) -> Vec3 {
+    let (fur, gloss, occlusion) = match region {
+        Region::Nose => (0.0, 1.0, 0.0),
+        Region::Nostril => (0.0, 0.6, 1.0),
+        Region::Lid => (0.0, 0.7, 0.35),
+        Region::UpperLip | Region::LowerLip => (0.25, 0.45, 0.25),
+        Region::Mouth => (0.0, 0.9, 0.75),
+        Region::EarInner => (0.35, 0.05, 0.30),
+        Region::Orbit => (0.75, 0.0, 0.12),
+        _ => (1.0, 0.0, 0.0),
+    };
+    vec3(fur * look.fur, gloss, occlusion)
+}
+
+/// Colours and surface qualities of the control vertices (one each).
+pub(super) fn paint(rig: &Rig, look: &Look, colours: &mut [Vec3], qualities: &mut [Vec3]) {
+    let regions = rig.half().whole_regions();
+    for (v, &region) in regions.iter().enumerate() {
+        colours[v] = colour(look, region);
+        qualities[v] = surface(look, region);
+    }
+    // The lining's outermost row is the lip's inner side.
+    for (v, pigment) in rig.inner_lip() {
+        colours[v] = look.mouth.lerp(look.lips, pigment);
+    }
+}
