@@ -23,15 +23,15 @@ struct Globals {
 }
 @group(0) @binding(0) var<uniform> globals: Globals;
 
-struct Kind {
-    code: vec4<u32>,
-}
-@group(1) @binding(0) var<uniform> kind: Kind;
-@group(1) @binding(1) var shadow_map: texture_depth_2d;
-@group(1) @binding(2) var shadow_sampler: sampler_comparison;
-@group(1) @binding(3) var noise_block: texture_3d<f32>;
-@group(1) @binding(4) var noise_sampler: sampler;
+@group(1) @binding(0) var shadow_map: texture_depth_2d;
+@group(1) @binding(1) var shadow_sampler: sampler_comparison;
+@group(1) @binding(2) var noise_block: texture_3d<f32>;
+@group(1) @binding(3) var noise_sampler: sampler;
 
+// What the run is made of. One pipeline for each, since software drivers walk through every branch they are given.
+override kind: u32 = 0u;
+// Leave out what costs most.
+override draft: bool = false;
 const NOSE: u32 = 1u;
 const LIP: u32 = 2u;
 const MOUTH: u32 = 3u;
@@ -95,6 +95,9 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
     let size = globals.measures.x;
     let slope = 1.0 - max(dot(normal, globals.key.xyz), 0.0);
     let place = globals.shadow_from_head * vec4<f32>(position + normal * size * (0.002 + 0.006 * slope), 1.0);
+    if draft {
+        return textureSampleCompareLevel(shadow_map, shadow_sampler, place.xy, place.z - 0.0025);
+    }
     var sum = 0.0;
     for (var i = 0; i < 10; i++) {
         let radius = sqrt((f32(i) + 0.5) / 10.0) * 0.010;
@@ -155,7 +158,10 @@ const SKEW: mat3x3<f32> = mat3x3<f32>(
 // White noise smeared along the hair, minus its mean; about -1 to 1, four independent channels. `width` is that of a
 // streak in metres. Line integral convolution after Cabral and Leedom (1993), along the tangent.
 fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
-    let scale = SKEW / (width * 64.0);
+    if draft {
+        return vec4<f32>(0.0);
+    }
+    let scale = SKEW * (1.0 / (width * 64.0));
     var sum = vec4<f32>(0.0);
     for (var i = 0; i < 5; i++) {
         let s = (f32(i) - 2.0) * 1.9 * width;
@@ -250,6 +256,13 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     return light;
 }
 
+// The film of moisture on bare margins, over what is below it.
+fn moisture(p: Point, gloss: f32) -> vec3<f32> {
+    let mirror = reflect(-p.view, p.normal);
+    let film = KEY * p.lit * (lobe(p, globals.key.xyz, 0.5) * 1.5 + lobe(p, globals.key.xyz, 0.3));
+    return (film + studio(mirror, 0.5) * fresnel(dot(p.view, p.normal)) * 0.6) * gloss * p.open;
+}
+
 // Moist bare skin. `grain`: cobbles a head's size; `roughness` of the film on it.
 fn leather(at: Point, colour: vec3<f32>, gloss: f32, grain: f32, relief: f32, roughness: f32) -> vec3<f32> {
     var p = at;
@@ -325,7 +338,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     let gloss = clamp(in.surface.y, 0.0, 1.0);
 
     var light: vec3<f32>;
-    switch kind.code.x {
+    switch kind {
         case NOSE: {
             light = leather(point, colour, max(gloss, 0.6), 260.0, 0.75, 0.24);
         }
@@ -344,10 +357,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         default: {
             light = coat(point, colour, in.flow, fur);
             // Bare or moist margins shade off into the coat.
-            if gloss > 0.02 {
-                let bare = leather(point, colour, gloss, 300.0, 0.4, 0.3);
-                light = mix(light, bare, gloss * (1.0 - fur));
-            }
+            light += moisture(point, gloss * (1.0 - fur));
         }
     }
     return vec4<f32>(encoded(film(light)), 1.0);

@@ -48,7 +48,7 @@ fn a_broken_shader_is_reported_with_its_place() {
     assert_eq!(error.line as usize, text.lines().count() + 4);
     assert!(error.column > 1);
 
-    sources.replace(ShaderFile::Wire, "fn f() -> f32 {\n    return 1u;\n}\n".into());
+    sources.replace(ShaderFile::Wire, "fn f() -> f32 {\n    let a: f32 = 1u;\n    return a;\n}\n".into());
     let error = sources.check(ShaderFile::Wire).unwrap_err();
     assert_eq!((error.line, error.file), (2, "wire.wgsl"), "{error}");
 }

@@ -418,7 +418,7 @@ mod tests {
         let text =
             "// a comment\nBreed(\n  a: { \"ä\": 1.5, /* x /* y */ */ \"b\": -2e-3 },\n  c: (d: 0x10, e: 1_000u32),\n)";
         assert_eq!(number_at(text, &["a", "ä"]), (3, 13, 1.5));
-        assert_eq!(number_at(text, &["a", "b"]), (3, 42, -2e-3));
+        assert_eq!(number_at(text, &["a", "b"]), (3, 39, -2e-3));
         assert_eq!(number_at(text, &["c", "d"]), (4, 10, 16.0));
         assert_eq!(number_at(text, &["c", "e"]), (4, 19, 1000.0));
     }

@@ -1,1 +1,8 @@
-//! Frames as files of other programs.
+//! Frames as files of other programs. Bytes out; who calls writes them to disk.
+
+mod geometry;
+mod glb;
+mod materials;
+
+pub use geometry::GeometryError;
+pub use glb::{GlbError, GlbOptions, SCHEMA, to_glb};

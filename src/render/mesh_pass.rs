@@ -1,16 +1,23 @@
 //! The head's surfaces, one draw for each run of a material.
 
-use super::head_buffers::{HeadBuffers, buffer};
+use super::head_buffers::HeadBuffers;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
 use super::targets::{COLOUR, DEPTH, SAMPLES};
 use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
-/// Distance between two entries of the material block: the largest alignment that any device asks for.
-const STRIDE: u32 = 256;
-
 const MATERIALS: [Material; 6] =
     [Material::Coat, Material::Nose, Material::Lip, Material::Mouth, Material::Eye, Material::Cap];
+
+/// How much work a pixel is worth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// Everything.
+    #[default]
+    Full,
+    /// No streaks in the coat and hard shadows: for a window drawn by a software driver.
+    Draft,
+}
 
 /// The number `mesh.wgsl` knows a material by.
 fn code(material: Material) -> u32 {
@@ -24,10 +31,10 @@ fn code(material: Material) -> u32 {
     }
 }
 
-/// Pipeline and bindings that do not change with the head.
+/// A pipeline for each material, and bindings that do not change with the head.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    pipeline: wgpu::RenderPipeline,
+    pipelines: [wgpu::RenderPipeline; MATERIALS.len()],
     bindings: wgpu::BindGroup,
 }
 
@@ -38,6 +45,7 @@ impl MeshPass {
         sources: &ShaderSources,
         globals: &wgpu::BindGroupLayout,
         shadow: &ShadowPass,
+        quality: Quality,
     ) -> Result<Self, ShaderError> {
         let own = bindings_layout(device);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -46,26 +54,36 @@ impl MeshPass {
             immediate_size: 0,
         });
         let module = sources.compile(device, ShaderFile::Mesh)?;
-        let pipeline = build_checked(device, ShaderFile::Mesh, || pipeline(device, &module, &layout))?;
-        Ok(Self { pipeline, bindings: bindings(device, queue, &own, shadow) })
+        let pipelines = build_checked(device, ShaderFile::Mesh, || {
+            MATERIALS.map(|material| pipeline(device, &module, &layout, material, quality))
+        })?;
+        Ok(Self { pipelines, bindings: bindings(device, queue, &own, shadow) })
     }
 
     /// Draws every run; the globals are bound as group 0.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(1, &self.bindings, &[]);
         let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface];
         for (slot, buffer) in (0..).zip(values) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
         pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
         for run in &head.runs {
-            pass.set_bind_group(1, &self.bindings, &[code(run.material) * STRIDE]);
+            pass.set_pipeline(&self.pipelines[code(run.material) as usize]);
             pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
         }
     }
 }
 
-fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    material: Material,
+    quality: Quality,
+) -> wgpu::RenderPipeline {
+    let draft = f64::from(u8::from(quality == Quality::Draft));
+    let constants = [("kind", f64::from(code(material))), ("draft", draft)];
     let attributes: [[wgpu::VertexAttribute; 1]; 5] = [
         wgpu::vertex_attr_array![0 => Float32x3],
         wgpu::vertex_attr_array![1 => Float32x3],
@@ -98,7 +116,7 @@ fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::P
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fragment"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
             targets: &[Some(COLOUR.into())],
         }),
         multiview_mask: None,
@@ -110,11 +128,6 @@ fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let texture =
         |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let types = [
-        wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: true,
-            min_binding_size: None,
-        },
         texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
         wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
         texture(wgpu::TextureSampleType::Float { filterable: true }, wgpu::TextureViewDimension::D3),
@@ -138,10 +151,6 @@ fn bindings(
     layout: &wgpu::BindGroupLayout,
     shadow: &ShadowPass,
 ) -> wgpu::BindGroup {
-    let materials = buffer(device, "materials", MATERIALS.len() * STRIDE as usize, wgpu::BufferUsages::UNIFORM);
-    for material in MATERIALS.map(code) {
-        queue.write_buffer(&materials, u64::from(material * STRIDE), bytemuck::bytes_of(&[material, 0, 0, 0]));
-    }
     let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("shadow"),
         mag_filter: wgpu::FilterMode::Linear,
@@ -159,9 +168,7 @@ fn bindings(
         ..Default::default()
     });
     let noise = noise::texture(device, queue);
-    let material = wgpu::BufferBinding { buffer: &materials, offset: 0, size: wgpu::BufferSize::new(16) };
     let resources = [
-        wgpu::BindingResource::Buffer(material),
         wgpu::BindingResource::TextureView(&shadow.map),
         wgpu::BindingResource::Sampler(&comparison),
         wgpu::BindingResource::TextureView(&noise),

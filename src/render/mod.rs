@@ -23,6 +23,7 @@ mod wire_pass;
 pub use camera::{Camera, Lens, View, ViewError};
 pub use gpu::{Gpu, GpuError};
 pub use ground_pass::Background;
+pub use mesh_pass::Quality;
 pub use offscreen::{DrawError, Offscreen};
 pub use painter::{Drawing, Painter, Shading};
 pub use picture::Picture;

@@ -1,6 +1,7 @@
 //! Pictures in memory, without a window.
 
 use super::gpu::Gpu;
+use super::mesh_pass::Quality;
 use super::painter::{Drawing, Painter};
 use super::picture::Picture;
 use super::shader_source::{ShaderError, ShaderSources};
@@ -37,7 +38,7 @@ pub struct Offscreen {
 impl Offscreen {
     /// Compiles the built-in shaders on the device.
     pub fn new(gpu: Gpu) -> Result<Self, ShaderError> {
-        let painter = Painter::new(&gpu.device, &gpu.queue, &ShaderSources::default())?;
+        let painter = Painter::new(&gpu.device, &gpu.queue, &ShaderSources::default(), Quality::Full)?;
         Ok(Self { gpu, painter, targets: None })
     }
 

@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::globals::{Extent, Globals};
 use super::ground_pass::{Background, GroundPass};
 use super::head_buffers::{HeadBuffers, buffer};
-use super::mesh_pass::MeshPass;
+use super::mesh_pass::{MeshPass, Quality};
 use super::shader_source::{ShaderError, ShaderSources};
 use super::shadow_pass::{self, ShadowPass};
 use super::targets::Targets;
@@ -58,6 +58,7 @@ pub struct Painter {
     globals_layout: wgpu::BindGroupLayout,
     globals: wgpu::Buffer,
     globals_bindings: wgpu::BindGroup,
+    quality: Quality,
     head: Option<HeadBuffers>,
 }
 
@@ -75,11 +76,12 @@ impl Passes {
         queue: &wgpu::Queue,
         sources: &ShaderSources,
         globals: &wgpu::BindGroupLayout,
+        quality: Quality,
     ) -> Result<Self, ShaderError> {
         let shadow = ShadowPass::new(device, sources, globals)?;
         Ok(Self {
             ground: GroundPass::new(device, sources, globals)?,
-            mesh: MeshPass::new(device, queue, sources, globals, &shadow)?,
+            mesh: MeshPass::new(device, queue, sources, globals, &shadow, quality)?,
             wire: WirePass::new(device, sources, globals)?,
             shadow,
         })
@@ -88,7 +90,12 @@ impl Passes {
 
 impl Painter {
     /// Compiles the shaders.
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, sources: &ShaderSources) -> Result<Self, ShaderError> {
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        sources: &ShaderSources,
+        quality: Quality,
+    ) -> Result<Self, ShaderError> {
         let globals_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("globals"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -108,8 +115,8 @@ impl Painter {
             layout: &globals_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
         });
-        let passes = Passes::new(device, queue, sources, &globals_layout)?;
-        Ok(Self { passes, globals_layout, globals, globals_bindings, head: None })
+        let passes = Passes::new(device, queue, sources, &globals_layout, quality)?;
+        Ok(Self { passes, globals_layout, globals, globals_bindings, quality, head: None })
     }
 
     /// Takes other shader texts. On an error everything stays as it was.
@@ -119,7 +126,7 @@ impl Painter {
         queue: &wgpu::Queue,
         sources: &ShaderSources,
     ) -> Result<(), ShaderError> {
-        self.passes = Passes::new(device, queue, sources, &self.globals_layout)?;
+        self.passes = Passes::new(device, queue, sources, &self.globals_layout, self.quality)?;
         Ok(())
     }
 

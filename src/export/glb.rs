@@ -1,0 +1,273 @@
+//! A frame as one binary glTF 2.0 file.
+//!
+//! Metres, +Y up, nose towards +Z, the dog's left at +X: glTF's own frame, so nothing is converted. The root node
+//! `londra_head` carries the breed in its extras as flat scalars (nested values abort some importers) and has one child per
+//! part. The same frame, table and breed give the same bytes: no clock, no hash map, keys in a fixed order.
+//!
+//! The container is written by hand (glTF 2.0 specification, "GLB File Format Specification"), the JSON by `gltf-json`.
+
+use super::geometry::{Geometry, GeometryError, PrimitiveData};
+use super::materials;
+use crate::anatomy::{Breed, ParamTable, save_breed};
+use crate::frame::{Frame, Material};
+use gltf_json as json;
+use json::accessor::{ComponentType, GenericComponentType, Type};
+use json::buffer::{Stride, Target};
+use json::validation::{Checked, USize64};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Version of what the extras mean (`londra_schema`).
+pub const SCHEMA: u32 = 1;
+
+/// What a file may say beside the head.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GlbOptions {
+    /// `asset.copyright`; also in the root's extras, since some tools drop it from the asset.
+    pub copyright: Option<String>,
+}
+
+/// Why a head cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum GlbError {
+    /// The frame is broken.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+    /// A .glb holds at most 4 GiB.
+    #[error("the head has {bytes} bytes, a .glb holds at most {}: lower the level", u32::MAX)]
+    TooLarge {
+        /// Size of the file.
+        bytes: usize,
+    },
+    /// The JSON could not be written.
+    #[error("the glTF description could not be written: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// Writes a frame and the breed it shows.
+///
+/// # Errors
+/// A frame with values that are not finite or do not fit together; more than 4 GiB.
+pub fn to_glb(frame: &Frame<'_>, table: &ParamTable, breed: &Breed, options: &GlbOptions) -> Result<Vec<u8>, GlbError> {
+    let mut writer = Writer::default();
+    let children = writer.parts(frame, breed.look.fur)?;
+    let binary = writer.buffer();
+
+    let mut root = writer.root;
+    let extras = extras(table, breed, options)?;
+    let nodes = &mut root.nodes;
+    nodes.push(json::Node {
+        name: Some("londra_head".to_owned()),
+        children: (!children.is_empty()).then_some(children),
+        extras: Some(extras),
+        ..Default::default()
+    });
+    let head = json::Index::new(nodes.len() as u32 - 1);
+    root.scenes =
+        vec![json::Scene { extensions: None, extras: None, name: Some("londra".to_owned()), nodes: vec![head] }];
+    root.scene = Some(json::Index::new(0));
+    root.asset.generator = Some(concat!("Londra ", env!("CARGO_PKG_VERSION")).to_owned());
+    root.asset.copyright = options.copyright.clone();
+    container(root.to_vec()?, binary)
+}
+
+/// Breed, values and origin as flat scalars. Sorted by key.
+fn extras(
+    table: &ParamTable,
+    breed: &Breed,
+    options: &GlbOptions,
+) -> Result<Box<serde_json::value::RawValue>, serde_json::Error> {
+    let values: BTreeMap<&str, f64> =
+        table.specs.iter().zip(&breed.values).map(|(spec, &si)| (spec.id.as_str(), spec.from_si(si))).collect();
+    let mut extras: BTreeMap<&str, Value> = BTreeMap::new();
+    extras.insert("londra_breed", breed.id.as_str().into());
+    extras.insert("londra_label", breed.label.as_str().into());
+    extras.insert("londra_origin", "midway between the mandibular condyles".into());
+    extras.insert("londra_params", serde_json::to_string(&values)?.into());
+    // The whole design: this text, saved as a .ron file, is the breed again.
+    extras.insert("londra_ron", save_breed(table, breed).into());
+    extras.insert("londra_schema", SCHEMA.into());
+    if let Some(copyright) = &options.copyright {
+        extras.insert("londra_copyright", copyright.as_str().into());
+    }
+    serde_json::value::to_raw_value(&extras)
+}
+
+/// The five kinds of data, in the order in which they lie in the buffer.
+#[derive(Clone, Copy)]
+enum Kind {
+    Positions,
+    Normals,
+    Colours,
+    IndicesU16,
+    IndicesU32,
+}
+
+#[derive(Default)]
+struct Writer {
+    root: json::Root,
+    geometry: Geometry,
+    materials: BTreeMap<Material, json::Index<json::Material>>,
+    /// Accessors and the kind of data each points into; the views are known only at the end.
+    kinds: Vec<Kind>,
+}
+
+impl Writer {
+    /// Meshes and nodes of all parts that have triangles.
+    fn parts(&mut self, frame: &Frame<'_>, fur: f32) -> Result<Vec<json::Index<json::Node>>, GlbError> {
+        // Materials stand in the order of the enum, whatever the order of the parts.
+        let ranges = frame.parts.iter().flat_map(|p| &p.topology.ranges).filter(|r| r.count > 0);
+        let mut used: Vec<Material> = ranges.map(|r| r.material).collect();
+        used.sort();
+        used.dedup();
+        for material in used {
+            let index = self.root.push(materials::material(material, fur));
+            self.materials.insert(material, index);
+        }
+        self.name_extensions();
+
+        let mut children = Vec::new();
+        for part in &frame.parts {
+            let mut primitives = Vec::new();
+            for range in part.topology.ranges.iter().filter(|r| r.count > 0) {
+                let data = self.geometry.push(part, range)?;
+                primitives.push(self.primitive(&data, range.material));
+            }
+            if primitives.is_empty() {
+                continue;
+            }
+            let name = Some(part.topology.name.to_owned());
+            let mesh = json::Mesh { extensions: None, extras: None, name: name.clone(), primitives, weights: None };
+            let mesh = Some(self.root.push(mesh));
+            children.push(self.root.push(json::Node { name, mesh, ..Default::default() }));
+        }
+        Ok(children)
+    }
+
+    fn name_extensions(&mut self) {
+        let extensions = self.root.materials.iter().filter_map(|m| m.extensions.as_ref());
+        let mut names: Vec<String> = extensions.flat_map(|e| e.others.keys().cloned()).collect();
+        names.sort();
+        names.dedup();
+        self.root.extensions_used = names;
+    }
+
+    fn primitive(&mut self, data: &PrimitiveData, material: Material) -> json::mesh::Primitive {
+        let ends = Some((data.min.to_array().into(), data.max.to_array().into()));
+        let (first, count) = (data.first_vertex, data.n_vertices);
+        let float = ComponentType::F32;
+        let position = self.accessor(Kind::Positions, first * 12, count, float, Type::Vec3, ends);
+        let normal = self.accessor(Kind::Normals, first * 12, count, float, Type::Vec3, None);
+        let colour = self.accessor(Kind::Colours, first * 4, count, ComponentType::U8, Type::Vec4, None);
+        self.root.accessors[colour.value()].normalized = true;
+        let (kind, component) = match data.wide {
+            true => (Kind::IndicesU32, ComponentType::U32),
+            false => (Kind::IndicesU16, ComponentType::U16),
+        };
+        let ends = Some((vec![0].into(), vec![data.max_index].into()));
+        let indices = self.accessor(kind, data.first_index_byte, data.n_indices, component, Type::Scalar, ends);
+        json::mesh::Primitive {
+            attributes: BTreeMap::from([
+                (Checked::Valid(json::mesh::Semantic::Positions), position),
+                (Checked::Valid(json::mesh::Semantic::Normals), normal),
+                (Checked::Valid(json::mesh::Semantic::Colors(0)), colour),
+            ]),
+            extensions: None,
+            extras: None,
+            indices: Some(indices),
+            material: self.materials.get(&material).copied(),
+            mode: Checked::Valid(json::mesh::Mode::Triangles),
+            targets: None,
+        }
+    }
+
+    fn accessor(
+        &mut self,
+        kind: Kind,
+        offset: usize,
+        count: usize,
+        component: ComponentType,
+        type_: Type,
+        ends: Option<(Value, Value)>,
+    ) -> json::Index<json::Accessor> {
+        let (min, max) = ends.unzip();
+        self.kinds.push(kind);
+        self.root.push(json::Accessor {
+            buffer_view: None,
+            byte_offset: Some(USize64::from(offset)),
+            count: USize64::from(count),
+            component_type: Checked::Valid(GenericComponentType(component)),
+            extensions: None,
+            extras: None,
+            type_: Checked::Valid(type_),
+            min,
+            max,
+            name: None,
+            normalized: false,
+            sparse: None,
+        })
+    }
+
+    /// Joins the data to one buffer, with a view for each kind that occurs, and points the accessors at their views.
+    fn buffer(&mut self) -> Vec<u8> {
+        let Geometry { positions, normals, colours, indices_u16, indices_u32, .. } = std::mem::take(&mut self.geometry);
+        let data = [positions, normals, colours, indices_u16, indices_u32];
+        let mut views = [None; 5];
+        let mut binary = Vec::new();
+        for (slot, bytes) in data.iter().enumerate().filter(|(_, bytes)| !bytes.is_empty()) {
+            let (name, stride) = match slot {
+                0 => ("positions", Some(Stride(12))),
+                1 => ("normals", Some(Stride(12))),
+                2 => ("colours", Some(Stride(4))),
+                3 => ("indices_u16", None),
+                _ => ("indices_u32", None),
+            };
+            let target = if stride.is_some() { Target::ArrayBuffer } else { Target::ElementArrayBuffer };
+            views[slot] = Some(self.root.push(json::buffer::View {
+                buffer: json::Index::new(0),
+                byte_length: USize64::from(bytes.len()),
+                byte_offset: Some(USize64::from(binary.len())),
+                byte_stride: stride,
+                name: Some(name.to_owned()),
+                target: Some(Checked::Valid(target)),
+                extensions: None,
+                extras: None,
+            }));
+            binary.extend_from_slice(bytes);
+            pad(&mut binary, 0);
+        }
+        for (accessor, kind) in self.root.accessors.iter_mut().zip(&self.kinds) {
+            accessor.buffer_view = views[*kind as usize];
+        }
+        if !binary.is_empty() {
+            let byte_length = USize64::from(binary.len());
+            self.root.push(json::Buffer { byte_length, name: None, uri: None, extensions: None, extras: None });
+        }
+        binary
+    }
+}
+
+/// Header, JSON chunk, binary chunk; each padded to four bytes.
+fn container(mut text: Vec<u8>, binary: Vec<u8>) -> Result<Vec<u8>, GlbError> {
+    pad(&mut text, b' ');
+    let binary_chunk = if binary.is_empty() { 0 } else { 8 + binary.len() };
+    let bytes = 12 + 8 + text.len() + binary_chunk;
+    let word = |n: usize| u32::try_from(n).map(u32::to_le_bytes).map_err(|_| GlbError::TooLarge { bytes });
+    let mut out = Vec::with_capacity(bytes);
+    out.extend(b"glTF");
+    out.extend(2_u32.to_le_bytes());
+    out.extend(word(bytes)?);
+    out.extend(word(text.len())?);
+    out.extend(b"JSON");
+    out.extend(text);
+    if !binary.is_empty() {
+        out.extend(word(binary.len())?);
+        out.extend(b"BIN\0");
+        out.extend(binary);
+    }
+    Ok(out)
+}
+
+fn pad(bytes: &mut Vec<u8>, with: u8) {
+    bytes.resize(bytes.len().next_multiple_of(4), with);
+}

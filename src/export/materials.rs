@@ -1,0 +1,62 @@
+//! What each material looks like elsewhere.
+//!
+//! Metallic-roughness carries the look alone; sheen, clearcoat and refraction refine it where a client knows them and are
+//! never required. Base colours are white: the colour is in the vertices.
+
+use crate::frame::Material;
+use gltf_json as json;
+use serde_json::{Map, Value, json};
+
+/// The name in the file.
+pub(super) const fn name(material: Material) -> &'static str {
+    match material {
+        Material::Coat => "coat",
+        Material::Nose => "nose",
+        Material::Lip => "lip",
+        Material::Mouth => "mouth",
+        Material::Eye => "eye",
+        Material::Cap => "neck_cap",
+    }
+}
+
+/// The material of a head with that much fur (0 bare to 1 haired), and the extensions it uses.
+pub(super) fn material(material: Material, fur: f32) -> json::Material {
+    let roughness = match material {
+        Material::Coat | Material::Cap => 0.95,
+        Material::Lip => 0.5,
+        Material::Nose | Material::Mouth => 0.4,
+        Material::Eye => 0.1,
+    };
+    json::Material {
+        name: Some(name(material).to_owned()),
+        pbr_metallic_roughness: json::material::PbrMetallicRoughness {
+            metallic_factor: json::material::StrengthFactor(0.0),
+            roughness_factor: json::material::StrengthFactor(roughness),
+            ..Default::default()
+        },
+        extensions: extensions(material, fur).map(|others| json::extensions::material::Material { others }),
+        ..Default::default()
+    }
+}
+
+/// Extensions by name, sorted.
+fn extensions(material: Material, fur: f32) -> Option<Map<String, Value>> {
+    let entries = match material {
+        Material::Coat => {
+            let sheen = f64::from((fur.clamp(0.0, 1.0) * 12.0).round()) / 100.0;
+            let (color, roughness) = ("sheenColorFactor", "sheenRoughnessFactor");
+            vec![("KHR_materials_sheen", json!({ color: [sheen, sheen, sheen], roughness: 0.6 }))]
+        }
+        Material::Nose => vec![("KHR_materials_clearcoat", clearcoat(0.5, 0.25))],
+        // 1.376: refractive index of the cornea (Gullstrand 1909), as glTF viewers use it for eyes.
+        Material::Eye => {
+            vec![("KHR_materials_clearcoat", clearcoat(1.0, 0.02)), ("KHR_materials_ior", json!({ "ior": 1.376 }))]
+        }
+        Material::Lip | Material::Mouth | Material::Cap => return None,
+    };
+    Some(entries.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+}
+
+fn clearcoat(amount: f64, roughness: f64) -> Value {
+    json!({ "clearcoatFactor": amount, "clearcoatRoughnessFactor": roughness })
+}
