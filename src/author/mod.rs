@@ -1,5 +1,5 @@
 //! How the head's assets are made: patch language, first fit, bake.
 
+pub mod bake;
 pub mod base;
 pub mod patch;
-pub mod bake;

@@ -137,7 +137,11 @@ fn check_folder(path: &Path, folder: &Path) -> Result<(), FileError> {
     let (path, folder) = (path.to_owned(), folder.to_owned());
     match fs::metadata(&folder) {
         Ok(metadata) if metadata.is_dir() => {
-            if is_locked(&metadata) { Err(FileError::ReadOnlyFolder { path, folder }) } else { Ok(()) }
+            if is_locked(&metadata) {
+                Err(FileError::ReadOnlyFolder { path, folder })
+            } else {
+                Ok(())
+            }
         }
         _ => Err(FileError::NoFolder { path, folder }),
     }

@@ -11,8 +11,11 @@ use std::sync::Arc;
 /// The breed that the words describe: first the breed, then what is mixed in, then what is set.
 pub(super) fn breed(rigs: &Rigs, word: &str, changes: &Changes) -> Result<Breed, Failure> {
     let base = rigs.breed(word)?;
-    let others: Vec<(Breed, f32)> =
-        changes.blend.iter().map(|share| Ok((rigs.breed(&share.breed)?, share.weight))).collect::<Result<_, Failure>>()?;
+    let others: Vec<(Breed, f32)> = changes
+        .blend
+        .iter()
+        .map(|share| Ok((rigs.breed(&share.breed)?, share.weight)))
+        .collect::<Result<_, Failure>>()?;
     let sum: f32 = others.iter().map(|(_, weight)| weight).sum();
     // Weights such as 0.1 + 0.2 + 0.7 may pass 1 by a rounding.
     if sum > 1.0 + 1e-6 {
@@ -42,7 +45,7 @@ fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<()
 
 /// A pipeline for the table of the rigs.
 pub(super) fn pipeline(rigs: &Rigs, detail: &Detail) -> Result<Pipeline, Failure> {
-    let rig = Arc::new(Rig::embedded().map_err(Failure::work)?);
+    let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
     let mut pipeline = Pipeline::new(rig, rigs.table.clone(), detail.level).map_err(Failure::work)?;
     pipeline.set_threads(detail.threads as usize);
     Ok(pipeline)

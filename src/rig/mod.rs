@@ -153,8 +153,11 @@ impl Rig {
         let axes = deform::eye_axes(&shape).map(|a| shape.direction(a));
         let left = Eye { centre: shape.metres(shape.eye()), radius: shape.eye_r * shape.scale, axes };
         let flip = |v: Vec3| Vec3::new(-v.x, v.y, v.z);
-        let right =
-            Eye { centre: flip(left.centre), radius: left.radius, axes: [-flip(axes[0]), flip(axes[1]), flip(axes[2])] };
+        let right = Eye {
+            centre: flip(left.centre),
+            radius: left.radius,
+            axes: [-flip(axes[0]), flip(axes[1]), flip(axes[2])],
+        };
         out.eyes = [left, right];
     }
 }
