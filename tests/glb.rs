@@ -8,7 +8,8 @@ use glam::Vec3;
 use gltf::mesh::util::{ReadColors, ReadIndices};
 use londra::anatomy::{Breed, ParamTable, library, load_breed};
 use londra::export::{GeometryError, GlbError, GlbOptions, to_glb};
-use londra::frame::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
+use londra::frame::{Frame, Material, MaterialRange, Part, PartTopology, Pipeline, Revisions};
+use londra::rig::Rig;
 use serde_json::Value;
 use stand_in::StandIn;
 use std::sync::Arc;
@@ -194,6 +195,20 @@ fn what_is_read_back_is_the_frame() {
     let frame = head.frame();
     compare(&export(&frame), &frame);
     check_geometry(&frame);
+}
+
+#[test]
+fn every_shipped_breed_is_read_back_as_its_frame_and_is_the_right_way_out() {
+    let table = Arc::new(table());
+    let rig = Arc::new(Rig::embedded(&table).unwrap());
+    let mut pipeline = Pipeline::new(rig, table.clone(), 2).unwrap();
+    for id in library::ids() {
+        let breed = library::breed(&table, id).unwrap();
+        let frame = pipeline.update(&breed);
+        let glb = to_glb(&frame, &table, &breed, &GlbOptions::default()).unwrap_or_else(|e| panic!("{id}: {e}"));
+        compare(&glb, &frame);
+        check_geometry(&frame);
+    }
 }
 
 #[test]

@@ -47,6 +47,8 @@ pub(super) enum Command {
     List(List),
     /// Find every mistake in breed files
     Check(Check),
+    /// Rebuild the baked assets in Londra's sources
+    Bake(Bake),
 }
 
 #[derive(Args, Debug)]
@@ -242,4 +244,15 @@ pub(super) struct Check {
     /// Print a JSON array of objects
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  londra bake\n  londra bake --check")]
+pub(super) struct Bake {
+    /// Change nothing; fail if a file is not what the program makes
+    #[arg(long)]
+    pub check: bool,
+    /// The folder of Londra's sources
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub root: PathBuf,
 }

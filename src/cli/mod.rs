@@ -3,6 +3,7 @@
 //! Results go to stdout, messages to stderr. Exit codes: 0 done, 1 failed, 2 wrong use, 3 no display or graphics adapter.
 
 mod args;
+mod bake;
 mod check;
 mod export;
 mod failure;
@@ -52,5 +53,6 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Hash(args) => hash::run(&args),
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Bake(args) => bake::run(&args),
     }
 }

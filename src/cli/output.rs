@@ -42,7 +42,11 @@ pub(super) fn file(target: &Path, bytes: &[u8], json_wanted: bool, facts: Value)
         return to_stdout(bytes);
     }
     write_atomic(target, bytes)?;
-    if json_wanted { json(&facts) } else { Ok(message(&format!("wrote {}", target.display()))) }
+    if json_wanted {
+        return json(&facts);
+    }
+    message(&format!("wrote {}", target.display()));
+    Ok(())
 }
 
 fn is_stdout(target: &Path) -> bool {
