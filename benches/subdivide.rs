@@ -8,8 +8,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::Vec3;
-use londra::mesh::shapes::icosahedron;
 use londra::mesh::DedgeMesh;
+use londra::mesh::shapes::icosahedron;
 use londra::subdiv::{Evaluator, Plan, Scheme, evaluate_once};
 
 const LEVELS: u32 = 4;

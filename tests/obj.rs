@@ -14,8 +14,18 @@ fn triangles(faces: &str) -> Result<Vec<[u32; 3]>, ObjError> {
 #[test]
 fn a_form_of_corner_is_misread() {
     for face in [
-        "f 1 2 3", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1", "f 1/1/1 2/1/1 3/1/1", "f -4 -3 -2", "f -4//-1 -3//1 -2/-1/1",
-        "  f\t1  2 3 ", "f 1 2 3\r", "f 1 2 3 # and a comment", "f 1 \\\n2 \\\r\n3", "f 1 2 \\\n3", "f 1 2 3\\",
+        "f 1 2 3",
+        "f 1/1 2/1 3/1",
+        "f 1//1 2//1 3//1",
+        "f 1/1/1 2/1/1 3/1/1",
+        "f -4 -3 -2",
+        "f -4//-1 -3//1 -2/-1/1",
+        "  f\t1  2 3 ",
+        "f 1 2 3\r",
+        "f 1 2 3 # and a comment",
+        "f 1 \\\n2 \\\r\n3",
+        "f 1 2 \\\n3",
+        "f 1 2 3\\",
     ] {
         assert_eq!(triangles(face), Ok(vec![[0, 1, 2]]), "{face:?}");
     }
@@ -31,7 +41,10 @@ fn a_polygon_is_not_cut_into_a_fan() {
 fn a_statement_without_geometry_is_an_error() {
     let text = "\u{feff}# d\u{e9}j\u{e0} vu\nmtllib x.mtl\no head\ng a b\ns off\nusemtl fur\nl 1 2\nvp 1\n\n";
     assert_eq!(read(text.as_bytes()).map(|m| m.triangles.len()), Ok(0));
-    assert_eq!(read(b"# \xff\xfe not UTF-8\nv 1 2 3 # \xe9\n").map(|m| m.positions), Ok(vec![Vec3::new(1.0, 2.0, 3.0)]));
+    assert_eq!(
+        read(b"# \xff\xfe not UTF-8\nv 1 2 3 # \xe9\n").map(|m| m.positions),
+        Ok(vec![Vec3::new(1.0, 2.0, 3.0)])
+    );
     assert_eq!(read(b"v 1 2 3 0.5\nv 1 2 3 0.1 0.2 0.3").map(|m| m.positions.len()), Ok(2));
     assert_eq!(read(b"").map(|m| m.positions.len()), Ok(0));
 }
@@ -88,7 +101,8 @@ fn writing_and_reading_changes_a_mesh() {
 #[test]
 fn a_float_loses_bits_on_the_way() {
     let mut rng = Rng::new(3);
-    let floats: Vec<f32> = std::iter::repeat_with(|| f32::from_bits(rng.next_u32())).filter(|x| x.is_finite()).take(3000).collect();
+    let floats: Vec<f32> =
+        std::iter::repeat_with(|| f32::from_bits(rng.next_u32())).filter(|x| x.is_finite()).take(3000).collect();
     let positions: Vec<Vec3> = floats.as_chunks::<3>().0.iter().map(|&p| p.into()).collect();
     let back = read(write(&positions, None, &[]).as_bytes()).expect("what was written").positions;
     let bits = |v: &[Vec3]| v.iter().flat_map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();
