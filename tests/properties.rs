@@ -336,8 +336,8 @@ fn flattened_tables_do_not_agree_with_the_steps() {
 #[test]
 fn fingerprint_does_not_tell_plans_apart() {
     let mut all: Vec<u64> = Vec::new();
-    // An octahedron is a bipyramid over a square: the same inputs, the same plan.
-    for shape in cabinet().iter().filter(|s| s.name != "octahedron") {
+    // An octahedron is a bipyramid over a square, a triangle a fan of one: the same inputs, the same plan.
+    for shape in cabinet().iter().filter(|s| !["octahedron", "triangle"].contains(&s.name.as_str())) {
         for levels in 0..3 {
             let fingerprint = plan(shape, levels).fingerprint();
             assert_eq!(fingerprint, plan(shape, levels).fingerprint());

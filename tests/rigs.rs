@@ -184,7 +184,7 @@ fn missing_fields_versions_and_foreign_files_are_refused() {
     assert!(missing.contains("bad.ron:1:1: label is missing"), "{missing}");
     for (version, printed) in [("0", "0"), ("2", "2"), ("1.5", "1.5"), ("-1", "-1")] {
         let text = file("").replace("version: 1", &format!("version: {version}"));
-        let message = format!("bad.ron:1:16: version is {printed}, this program reads versions 1 to 1");
+        let message = format!("bad.ron:1:16: version is {printed}, this program reads whole numbers from 1 to 1");
         assert_eq!(refused(&text).to_string(), message);
     }
     assert!(refused("Anatomy(version: 1, parameters: [])").to_string().contains("expected Breed(…), found Anatomy(…)"));

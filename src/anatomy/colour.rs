@@ -2,6 +2,7 @@
 //!
 //! The curve is that of IEC 61966-2-1.
 
+use crate::math::ops;
 use glam::Vec3;
 
 /// Reads `#rrggbb` as linear red, green, blue, each 0 to 1. `None` when the text has another form.
@@ -24,7 +25,7 @@ pub fn to_hex(linear: Vec3) -> String {
 pub fn from_srgb8(bytes: [u8; 3]) -> Vec3 {
     let channel = |b: u8| {
         let s = f64::from(b) / 255.0;
-        let linear = if s <= 0.04045 { s / 12.92 } else { libm::pow((s + 0.055) / 1.055, 2.4) };
+        let linear = if s <= 0.04045 { s / 12.92 } else { ops::powf((s + 0.055) / 1.055, 2.4) };
         linear as f32
     };
     Vec3::new(channel(bytes[0]), channel(bytes[1]), channel(bytes[2]))
@@ -34,7 +35,7 @@ pub fn from_srgb8(bytes: [u8; 3]) -> Vec3 {
 pub fn to_srgb8(linear: Vec3) -> [u8; 3] {
     linear.to_array().map(|channel| {
         let c = f64::from(channel).clamp(0.0, 1.0);
-        let s = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * libm::pow(c, 1.0 / 2.4) - 0.055 };
+        let s = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * ops::powf(c, 1.0 / 2.4) - 0.055 };
         (s * 255.0 + 0.5) as u8
     })
 }

@@ -401,10 +401,8 @@ mod tests {
     use super::*;
 
     fn number_at(text: &str, path: &[&str]) -> (u32, u32, f64) {
-        let mut node = &parse("t", text).unwrap();
-        let root;
-        root = node.clone();
-        node = &root;
+        let root = parse("t", text).unwrap();
+        let mut node = &root;
         for step in path {
             let (Item::Record(_, entries) | Item::Map(entries)) = &node.item else { panic!("{node:?}") };
             node = &entries.iter().find(|e| e.key.item == Item::Text((*step).to_owned())).unwrap().value;

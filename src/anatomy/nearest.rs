@@ -3,14 +3,18 @@
 /// Up to three answers whose spelling is near the query, nearest first.
 ///
 /// `names` are pairs of an answer and one spelling of it (its own name, a label, a synonym). A spelling is near when the
-/// query is a part of it, or when at most a third of the query's letters (but always two) must change. Case, spaces, `-` and
-/// `_` do not count. Ties keep the order of `names`.
+/// query is a part of it, or when at most a third of the query's letters (but always one, and two from five letters on) must
+/// change. Case, spaces, `-` and `_` do not count. Ties keep the order of `names`.
 pub fn nearest<'a>(query: &str, names: impl IntoIterator<Item = (&'a str, &'a str)>) -> Vec<&'a str> {
     let query = plain(query);
     if query.is_empty() {
         return Vec::new();
     }
-    let limit = (query.len() / 3).max(2).min(query.len().saturating_sub(1));
+    let limit = match query.len() {
+        1 => 0,
+        2..=4 => 1,
+        n => (n / 3).max(2),
+    };
     let mut found: Vec<(usize, &str)> = Vec::new();
     for (answer, spelling) in names {
         let spelling = plain(spelling);

@@ -28,7 +28,7 @@ pub enum ProblemKind {
     #[error("syntax error: {0}")]
     Syntax(String),
     /// The file's version is unknown to this program.
-    #[error("version is {found}, this program reads versions 1 to {newest}")]
+    #[error("version is {found}, this program reads whole numbers from 1 to {newest}")]
     Version {
         /// The version in the file.
         found: f64,

@@ -3,6 +3,7 @@
 use super::locate::{self, Node, Place};
 use super::read::Problems;
 use super::{Follow, LoadErrors, ParamSpec, ProblemKind, Unit, nearest};
+use crate::math::ops;
 
 /// Every measure of the head, in the order in which they are shown. Immutable once loaded; share it by `Arc`.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ impl ParamTable {
         let target = self.order.iter().find(|(i, _)| *i == index).and_then(|(_, target)| *target);
         let (Some(target), Some(follow)) = (target, &spec.follows) else { return spec.default_si() };
         let ratio = f64::from(values[target]) / f64::from(self.specs[target].default_si());
-        let value = f64::from(spec.default_si()) * libm::pow(ratio, follow.exponent);
+        let value = f64::from(spec.default_si()) * ops::powf(ratio, follow.exponent);
         (value as f32).clamp(spec.min_si(), spec.max_si())
     }
 

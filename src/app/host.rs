@@ -178,7 +178,10 @@ impl Host {
         self.state.n_triangles = frame.n_triangles();
         let drawing = drawing(&self.state, scale);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.scene.draw(&self.gpu, &mut self.renderer, &mut encoder, &frame, &drawing, self.picture_size);
+        // A processor that draws keeps up with the hand at half the size; the full picture follows.
+        let is_rough = self.gpu.is_software() && context.input(|i| i.pointer.any_down());
+        let size = self.picture_size.map(|s| if is_rough { s.div_ceil(2) } else { s });
+        self.scene.draw(&self.gpu, &mut self.renderer, &mut encoder, &frame, &drawing, size);
 
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), scale);
         let was_shown = self.present(encoder, &jobs, &mut output.textures_delta, scale, start, head_ms);

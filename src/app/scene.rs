@@ -20,8 +20,8 @@ impl Scene {
         let quality = if gpu.is_software() { Quality::Draft } else { Quality::Full };
         let painter = Painter::new(&gpu.device, &gpu.queue, sources, quality)?;
         let targets = Targets::new(&gpu.device, [16, 16]);
-        let nearest = wgpu::FilterMode::Nearest;
-        let texture = renderer.register_native_texture(&gpu.device, &targets.colour_view, nearest);
+        let smooth = wgpu::FilterMode::Linear;
+        let texture = renderer.register_native_texture(&gpu.device, &targets.colour_view, smooth);
         Ok(Self { painter, targets, texture, drawn: None })
     }
 
@@ -54,8 +54,8 @@ impl Scene {
     ) {
         if self.targets.size != size {
             self.targets = Targets::new(&gpu.device, size);
-            let (view, nearest) = (&self.targets.colour_view, wgpu::FilterMode::Nearest);
-            renderer.update_egui_texture_from_wgpu_texture(&gpu.device, view, nearest, self.texture);
+            let (view, smooth) = (&self.targets.colour_view, wgpu::FilterMode::Linear);
+            renderer.update_egui_texture_from_wgpu_texture(&gpu.device, view, smooth, self.texture);
             self.drawn = None;
         }
         let now = (*drawing, frame.revisions);

@@ -3,13 +3,14 @@
 //! First guess: a Bézier curve across each ring from its dorsal station to its lip or cheek station, sent outwards to the
 //! surface; then relaxation on the surface. Later heads start from this one, so it decides how evenly triangles lie.
 
-use crate::rig::deform::{DeformPlan, Scratch};
+use crate::math::ops;
+use crate::rig::deform::{DeformPlan, Scratch, layers};
 use crate::rig::handles::NONE;
 use crate::rig::implicit::{Implicit, Layer};
-use crate::rig::{HalfMesh, Handles, Proportions};
+use crate::rig::{HalfMesh, HalfRings, Handles, Proportions};
 use glam::{Vec3, vec3};
 
-const RELAX: usize = 40;
+const RELAX: usize = 80;
 
 /// Lip, philtrum or cheek station (column 9) of the rings behind the mouth's corner, head units, default head: where the
 /// cheek's flow should run. Rings in front have their pinned lip edge.
@@ -28,6 +29,90 @@ const CHEEK: [(f32, f32, f32); 9] = [
 fn bezier(p: [Vec3; 4], t: f32) -> Vec3 {
     let u = 1.0 - t;
     p[0] * (u * u * u) + p[1] * (3.0 * u * u * t) + p[2] * (3.0 * u * t * t) + p[3] * (t * t * t)
+}
+
+/// Where a vertex should go to stand evenly among its neighbours: their mean, the longer edges counting more, so that
+/// vertices on the crest of a bump do not gather there.
+fn even_mean(rings: &HalfRings, v: usize, at: &[Vec3]) -> Vec3 {
+    let (mut sum, mut weight) = (Vec3::ZERO, 0.0);
+    for (u, across) in rings.of(v) {
+        let p = if across { at[u] * vec3(-1.0, 1.0, 1.0) } else { at[u] };
+        let edge = p - at[v];
+        let w = edge.length_squared();
+        sum += edge * w;
+        weight += w;
+    }
+    sum / weight.max(1e-6)
+}
+
+/// Smallest angle of a triangle, radians.
+fn smallest_angle(p: [Vec3; 3]) -> f32 {
+    let corner = |k: usize| {
+        let (a, b) = ((p[(k + 1) % 3] - p[k]).normalize_or_zero(), (p[(k + 2) % 3] - p[k]).normalize_or_zero());
+        ops::acos(a.dot(b).clamp(-1.0, 1.0))
+    };
+    corner(0).min(corner(1)).min(corner(2))
+}
+
+/// Slides free vertices along the surface to wherever the smallest angle around them is larger: a search by halving
+/// steps in eight directions, a fixed number of sweeps.
+fn open_angles(
+    half: &HalfMesh,
+    plan: &DeformPlan,
+    surface: &Implicit,
+    free: &std::collections::BTreeSet<u16>,
+    at: &mut [Vec3],
+) {
+    let mut around: Vec<Vec<[usize; 3]>> = vec![Vec::new(); at.len()];
+    for f in &half.faces {
+        let f = f.map(usize::from);
+        for v in f {
+            around[v].push(f);
+        }
+    }
+    let layer = layers(plan.handles(), at.len());
+    let quality = |at: &[Vec3], v: usize| {
+        let (_, outward) = surface.sample(at[v], layer[v]);
+        let angle = |f: &[usize; 3]| {
+            let p = f.map(|u| at[u]);
+            // A triangle turned over counts as worse than any sliver.
+            let turned = (p[1] - p[0]).cross(p[2] - p[0]).dot(outward) < 0.0;
+            smallest_angle(p) - if turned { 1.0 } else { 0.0 }
+        };
+        around[v].iter().map(angle).fold(f32::INFINITY, f32::min)
+    };
+    for sweep in 0..12 {
+        let step = if sweep % 4 == 3 { 0.05 } else { 0.12 };
+        for &v in free {
+            let v = v as usize;
+            let (_, g) = surface.sample(at[v], layer[v]);
+            let normal = g.normalize_or(Vec3::Y);
+            let (a, b) = normal.any_orthonormal_pair();
+            let mut best = (quality(at, v), at[v]);
+            if best.0 > 0.22 {
+                continue;
+            }
+            let here = at[v];
+            for k in 0..8 {
+                let turn = core::f32::consts::TAU * k as f32 / 8.0;
+                let mut p = here + (a * ops::cos(turn) + b * ops::sin(turn)) * step;
+                if half.midline[v] {
+                    p.x = 0.0;
+                } else if p.x < 0.05 {
+                    continue;
+                }
+                at[v] = surface.project(p, layer[v], 2);
+                if half.midline[v] {
+                    at[v].x = 0.0;
+                }
+                let q = quality(at, v);
+                if q > best.0 + 1e-4 {
+                    best = (q, at[v]);
+                }
+            }
+            at[v] = best.1;
+        }
+    }
 }
 
 /// Fitted positions of the half mesh for `shape`, before ear leather and limit compensation.
@@ -73,11 +158,15 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
             }
         }
     }
+    let layer = layers(handles, at.len());
     for _ in 0..RELAX {
         let before = at.clone();
         for &v in &free {
             let v = v as usize;
-            at[v] = (before[v] + plan.rings().mean(v, &before)) * 0.5;
+            // Along the surface only: across it the projection would fold what the mean has pulled through an edge.
+            let pull = even_mean(plan.rings(), v, &before) * 0.4;
+            let normal = surface.sample(before[v], layer[v]).1.normalize_or_zero();
+            at[v] = before[v] + pull - normal * (0.85 * normal.dot(pull));
             if half.midline[v] {
                 at[v].x = 0.0;
             }
@@ -89,6 +178,7 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
     for v in (0..at.len()).filter(|&v| !free.contains(&(v as u16))) {
         at[v] = pinned[v];
     }
+    open_angles(half, &plan, &surface, &free, &mut at);
     // The leather's base shape is never read but for its place near the head; give it the finished one.
     let mut finished = at.clone();
     plan.finish(shape, &surface, &mut Scratch::default(), &mut finished);

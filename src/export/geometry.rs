@@ -144,7 +144,7 @@ fn indices_of<'a>(part: &Part<'a>, range: &MaterialRange) -> Result<&'a [u32], G
     let MaterialRange { start, count, .. } = *range;
     let indices = &part.topology.indices;
     let wrong = GeometryError::Range { part: part.topology.name, start, count, n_indices: indices.len() };
-    if count % 3 != 0 {
+    if !count.is_multiple_of(3) {
         return Err(wrong);
     }
     indices.get(start as usize..(start as usize).saturating_add(count as usize)).ok_or(wrong)

@@ -55,7 +55,7 @@ impl DedgeId {
     /// The side before this one in the same triangle.
     #[inline(always)]
     pub fn prev(self) -> Self {
-        Self(if self.0 % 3 == 0 { self.0 + 2 } else { self.0 - 1 })
+        Self(if self.0.is_multiple_of(3) { self.0 + 2 } else { self.0 - 1 })
     }
 }
 

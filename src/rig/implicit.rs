@@ -159,14 +159,15 @@ impl Implicit {
         let (eye, fl, lt, dome) = (s.eye(), s.flew, s.lip_t, s.dome);
         let (neck_a, neck_dir) = s.neck_axis();
         let neck_x = s.neck_w / s.neck_d;
+        let slim = s.slim();
         let ropes = |scale: f32| {
-            let inset = 0.5 * (1.0 - s.wrinkle);
+            let inset = 0.5 - 0.45 * s.wrinkle;
             let at = [
-                vec3(0.0, bridge0 + 0.75, 0.40 * length),
-                vec3(0.55 * w0, bridge0 + 0.15, 0.36 * length),
+                vec3(0.0, bridge0 + 0.25, 0.32 * length),
+                vec3(0.50 * w0, bridge0 - 0.15, 0.30 * length),
                 vec3(w0, bridge0 - 1.9, 0.20 * length),
             ];
-            let r = [0.42, 0.5, 0.4].map(|r| (r - inset) * scale);
+            let r = [0.62, 0.62, 0.45].map(|r| (r - inset) * scale);
             [Cone::new(at[0], at[1], r[0], r[1]), Cone::new(at[1], at[2], r[1], r[2])]
         };
         Self {
@@ -192,7 +193,13 @@ impl Implicit {
                     ),
                     2.5,
                 ),
-                (Ellipsoid::new(vec3(0.5 * eye.x, eye.y + 0.35 + 0.5 * dome, eye.z - 1.6), vec3(1.9, 1.8, 2.4)), 1.6),
+                (
+                    Ellipsoid::new(
+                        vec3(0.5 * eye.x, eye.y + 0.35 + 0.5 * dome, eye.z - 1.6),
+                        vec3(1.9, 1.15 + 0.35 * s.stop, 2.4),
+                    ),
+                    1.6,
+                ),
             ],
             furrow: (
                 Cone::new(vec3(0.0, 1.0, 0.6), vec3(0.0, ch + 0.4, -0.4 * cl), 0.35 + 0.3 * s.furrow, 0.2),
@@ -209,12 +216,12 @@ impl Implicit {
             ),
             zygoma: {
                 let a = vec3(0.98 * eye.x, s.zyg_y + 0.35, eye.z + 0.2);
-                let b = vec3(zw - 1.5, s.zyg_y + 0.2, -0.36 * cl);
-                let c = vec3(zw - 2.2, s.zyg_y + 0.9, -0.62 * cl);
-                [Cone::new(a, b, 1.35, 1.5), Cone::new(b, c, 1.5, 1.6)]
+                let b = vec3(zw - 1.8, s.zyg_y + 0.2, -0.36 * cl);
+                let c = vec3(zw - 2.4, s.zyg_y + 0.9, -0.62 * cl);
+                [Cone::new(a, b, 1.35, 1.8), Cone::new(b, c, 1.8, 1.8)]
             },
             masseter: Ellipsoid::turned(
-                vec3(zw - 2.9, s.zyg_y - 2.3, -0.38 * cl),
+                vec3(zw - 2.6, s.zyg_y - 2.3, -0.38 * cl),
                 vec3(2.2 + 0.5 * s.cheek, 3.0 + 0.3 * s.cheek, 3.4),
                 15.0,
             ),
@@ -234,19 +241,19 @@ impl Implicit {
                 rounding: 0.62,
             },
             whisker_pad: Ellipsoid::new(
-                vec3(0.52 * w1, lip1 + 1.75 - 0.2 * fl, length - 2.2),
-                vec3(0.58 * w1 * lt + 0.15, 2.0, 2.2),
+                vec3(0.52 * w1, lip1 + 0.3 + 1.45 * slim - 0.2 * fl, length - 0.4 - 1.8 * slim),
+                vec3(0.58 * w1 * lt + 0.15, 0.8 + 1.2 * slim, 0.8 + 1.4 * slim),
             ),
             flew: Cone::new(
                 vec3(0.62 * w1, lip1 + 1.05 - 0.75 * fl, length - 2.0),
-                vec3(0.93 * w0, lip0 + 1.1 - 0.75 * fl, 1.2),
+                vec3(0.90 * w0, lip0 + 1.2 - 0.70 * fl, 1.2),
                 0.95 * lt,
-                0.95 * lt,
+                0.72 * lt,
             ),
             roll: (s.wrinkle > 0.0).then(|| ropes(1.0)),
             jaw: TaperedBox {
                 z: (-0.40 * cl, jz - 0.2),
-                half_width: (w0 * s.jaw_w + 0.35, 0.80 * w1 * s.jaw_w),
+                half_width: (w0 * s.jaw_w + 0.35, 0.70 * w1 * s.jaw_w),
                 top: (lip0 + 1.0, lip1 + 0.9),
                 bottom: (lip0 - 1.15 * s.jaw_d, lip1 - 0.72 * s.jaw_d),
                 arch: 0.0,
@@ -256,7 +263,7 @@ impl Implicit {
             chin: (
                 Ellipsoid::new(
                     vec3(0.0, lip1 - 0.30 * s.jaw_d, jz - 1.1),
-                    vec3(0.72 * w1 * s.jaw_w, 0.55 * s.jaw_d, 1.2 + 0.2 * s.chin),
+                    vec3(0.62 * w1 * s.jaw_w, 0.55 * s.jaw_d, 1.2 + 0.2 * s.chin),
                 ),
                 0.12 * s.chin,
             ),
@@ -287,7 +294,7 @@ impl Implicit {
         }
         d = smax(d, -self.furrow.0.eval(p), self.furrow.1);
         d = smin(d, self.brow.0.eval(p), self.brow.1);
-        d = smin(d, smin(self.zygoma[0].eval(p), self.zygoma[1].eval(p), 1.0), 2.4);
+        d = smin(d, smin(self.zygoma[0].eval(p), self.zygoma[1].eval(p), 1.0), 3.0);
         d = smin(d, self.masseter.eval(p), 3.0);
         d = smin(d, self.jaw_angle.eval(p), 3.2);
         let m = p.rotate_x(self.tilt.0, self.tilt.1);
@@ -296,7 +303,7 @@ impl Implicit {
             d = smin(d, self.whisker_pad.eval(m), 1.4);
             d = smin(d, self.flew.eval(m), 1.6);
             if let Some([a, b]) = &self.roll {
-                d = smin(d, smin(a.eval(m), b.eval(m), 0.3), 0.45);
+                d = smin(d, smin(a.eval(m), b.eval(m), 0.6), 1.0);
             }
         }
         if layer != Layer::Upper {

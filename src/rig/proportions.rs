@@ -262,6 +262,10 @@ impl Proportions {
     pub fn lip1(&self) -> f32 {
         self.bridge1() - self.muz_d1
     }
+    /// How the muzzle's tip compares with the default head's: features at the lips shrink with it.
+    pub fn slim(&self) -> f32 {
+        (self.muz_w1 / 5.8).clamp(0.45, 1.1)
+    }
     /// Foremost extent of the lower jaw, muzzle frame.
     pub fn jaw_z(&self) -> f32 {
         self.muz_len + self.jaw_len

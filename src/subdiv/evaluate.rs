@@ -34,6 +34,8 @@ pub struct Evaluator {
     /// Two levels in turn: the one being read and the one being written.
     coarse: Vec<Lane>,
     fine: Vec<Lane>,
+    /// The last level.
+    finest: Vec<Lane>,
     positions: Vec<Vec3>,
     face_normals: Vec<Lane>,
     normals: Vec<Vec3>,
@@ -48,6 +50,7 @@ impl Evaluator {
             fingerprint: plan.fingerprint(),
             coarse: Vec::new(),
             fine: Vec::new(),
+            finest: Vec::new(),
             positions: Vec::new(),
             face_normals: Vec::new(),
             normals: Vec::new(),
@@ -77,9 +80,8 @@ impl Evaluator {
     /// Where `control` has another length than the plan has control vertices.
     pub fn evaluate<'a>(&'a mut self, plan: &'a Plan, control: &[Vec3]) -> Surface<'a> {
         self.fit(plan);
-        let mut positions = std::mem::take(&mut self.positions);
-        self.refine(plan, control, &mut positions);
-        self.positions = positions;
+        self.refine(plan, control);
+        unpad(&self.finest, &mut self.positions);
         self.find_normals(plan);
         Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
     }
@@ -90,8 +92,10 @@ impl Evaluator {
     /// # Panics
     /// Where a length is another.
     pub fn evaluate_attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+        assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
         self.fit(plan);
-        self.refine(plan, control, out);
+        self.refine(plan, control);
+        unpad(&self.finest, out);
     }
 
     /// Makes the buffers fit; does nothing where they do.
@@ -103,55 +107,67 @@ impl Evaluator {
         let n_between = plan.n_vertices_at(plan.levels().saturating_sub(1));
         self.coarse.resize(n_between, Lane::default());
         self.fine.resize(n_between, Lane::default());
+        self.finest.resize(plan.n_vertices(), Lane::default());
         self.positions.resize(plan.n_vertices(), Vec3::ZERO);
-        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
         self.face_normals.resize(plan.n_faces(), Lane::default());
+        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
     }
 
-    fn refine(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+    /// From control values to those of the last level, in `finest`.
+    fn refine(&mut self, plan: &Plan, control: &[Vec3]) {
         assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
-        assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
         let Some((last, steps)) = plan.tables().split_last() else {
-            out.copy_from_slice(control);
+            pad(control, &mut self.finest);
             return;
         };
-        for (lane, &value) in self.coarse.iter_mut().zip(control) {
-            *lane = value.into();
-        }
+        pad(control, &mut self.coarse);
         for table in steps {
             let (source, target) = (&self.coarse[..table.n_sources()], &mut self.fine[..table.n_rows()]);
             apply(self.pool.as_ref(), table, source, target);
             std::mem::swap(&mut self.coarse, &mut self.fine);
         }
-        apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], out);
+        apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest);
     }
 
     fn find_normals(&mut self, plan: &Plan) {
-        let Evaluator { positions, face_normals: flat, normals, pool, .. } = self;
+        let Evaluator { finest, face_normals: flat, normals, pool, .. } = self;
         let (indices, around) = (plan.indices(), &plan.vertex_faces);
-        let Some(pool) = pool else {
-            face_normals(indices, positions, flat);
-            around.gather(0, flat, normals);
-            return;
-        };
-        pool.install(|| {
-            flat.par_chunks_mut(CHUNK)
-                .zip(indices.par_chunks(3 * CHUNK))
-                .for_each(|(flat, indices)| face_normals(indices, positions, flat));
-            normals
-                .par_chunks_mut(CHUNK)
-                .enumerate()
-                .for_each(|(chunk, normals)| around.gather(chunk * CHUNK, flat, normals));
-        });
+        match pool {
+            Some(pool) if normals.len() > CHUNK => pool.install(|| {
+                flat.par_chunks_mut(CHUNK)
+                    .zip(indices.par_chunks(3 * CHUNK))
+                    .for_each(|(flat, indices)| face_normals(indices, finest, flat));
+                normals
+                    .par_chunks_mut(CHUNK)
+                    .enumerate()
+                    .for_each(|(chunk, normals)| around.gather(chunk * CHUNK, flat, normals));
+            }),
+            _ => {
+                face_normals(indices, finest, flat);
+                around.gather(0, flat, normals);
+            }
+        }
     }
 }
 
-fn apply<O: From<Lane> + Send>(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [O]) {
+fn apply(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
     match pool {
         Some(pool) if out.len() > CHUNK => pool.install(|| {
             out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| table.apply_rows(chunk * CHUNK, source, out));
         }),
         _ => table.apply_rows(0, source, out),
+    }
+}
+
+fn pad(values: &[Vec3], lanes: &mut [Lane]) {
+    for (lane, &value) in lanes.iter_mut().zip(values) {
+        *lane = value.into();
+    }
+}
+
+fn unpad(lanes: &[Lane], values: &mut [Vec3]) {
+    for (value, &lane) in values.iter_mut().zip(lanes) {
+        *value = lane.into();
     }
 }
 

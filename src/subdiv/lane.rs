@@ -28,6 +28,20 @@ impl Lane {
     }
 
     #[inline(always)]
+    pub(super) fn minus(self, other: Lane) -> Lane {
+        Lane(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    }
+
+    /// The cross product of the first three.
+    #[inline(always)]
+    pub(super) fn cross(self, other: Lane) -> Lane {
+        let ([ax, ay, az, aw], [bx, by, bz, bw]) = (self.0, other.0);
+        // The fourth lane is computed like the others so that all four share each instruction.
+        let (left, right) = ([ay * bz, az * bx, ax * by, aw * bw], [az * by, ax * bz, ay * bx, aw * bw]);
+        Lane(left).minus(Lane(right))
+    }
+
+    #[inline(always)]
     pub(super) fn plus(self, other: Lane) -> Lane {
         Lane(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }

@@ -11,6 +11,7 @@ mod mask;
 mod normals;
 mod plan;
 mod refine;
+mod runs;
 mod scheme;
 pub mod sqrt3;
 mod stencil;

@@ -1,10 +1,9 @@
 //! Stencil tables: rows of sources and weights in compressed form (CSR).
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 
 use super::lane::Lane;
+use super::runs::{Run, pieces, runs_of};
 
 /// The type of a table's weights: `f32` for frames, `f64` for oracles.
 pub trait Weight: Copy + PartialEq + Send + Sync + std::fmt::Debug {
@@ -71,14 +70,6 @@ impl Blend<f32> for Lane {
     }
 }
 
-/// Successive rows of the same length.
-#[derive(Clone, Debug, PartialEq)]
-struct Run {
-    rows: Range<usize>,
-    first_entry: usize,
-    row_len: usize,
-}
-
 /// For each vertex of a level, the weighted sum over vertices of a coarser level that gives it.
 ///
 /// Rows are summed in stored order, so that a row has the same bits however the rows are spread over threads.
@@ -134,28 +125,19 @@ impl<W: Weight> StencilTable<W> {
         self.apply_rows(0, source, out);
     }
 
-    /// Computes the rows from `first_row` on, one for each place in `out`, and converts each to what `out` holds.
-    pub(super) fn apply_rows<P: Blend<W>, O: From<P>>(&self, first_row: usize, source: &[P], out: &mut [O]) {
+    /// Computes the rows from `first_row` on, one for each place in `out`.
+    pub(super) fn apply_rows<P: Blend<W>>(&self, first_row: usize, source: &[P], out: &mut [P]) {
         assert_eq!(source.len(), self.n_sources, "one value for each source");
         assert!(first_row + out.len() <= self.n_rows(), "at most one value for each row");
-        let end_row = first_row + out.len();
-        let mut run_idx = self.runs.partition_point(|run| run.rows.end <= first_row);
-        let mut row = first_row;
-        while row < end_row {
-            let run = &self.runs[run_idx];
-            let end = run.rows.end.min(end_row);
-            let first_entry = run.first_entry + (row - run.rows.start) * run.row_len;
-            let entries = first_entry..first_entry + (end - row) * run.row_len;
-            let (sources, weights) = (&self.sources[entries.clone()], &self.weights[entries]);
-            let out = &mut out[row - first_row..end - first_row];
-            match run.row_len {
-                1 => apply_run::<1, W, P, O>(sources, weights, source, out),
-                3 => apply_run::<3, W, P, O>(sources, weights, source, out),
-                7 => apply_run::<7, W, P, O>(sources, weights, source, out),
+        for piece in pieces(&self.runs, first_row..first_row + out.len()) {
+            let (sources, weights) = (&self.sources[piece.entries.clone()], &self.weights[piece.entries]);
+            let out = &mut out[piece.out];
+            match piece.row_len {
+                1 => apply_run::<1, W, P>(sources, weights, source, out),
+                3 => apply_run::<3, W, P>(sources, weights, source, out),
+                7 => apply_run::<7, W, P>(sources, weights, source, out),
                 len => apply_long_run(len, sources, weights, source, out),
             }
-            row = end;
-            run_idx += 1;
         }
     }
 
@@ -214,14 +196,7 @@ impl<W: Weight> StencilBuilder<W> {
     }
 
     pub(super) fn finish(self) -> StencilTable<W> {
-        let mut runs: Vec<Run> = Vec::new();
-        for (row, ends) in self.offsets.windows(2).enumerate() {
-            let row_len = (ends[1] - ends[0]) as usize;
-            match runs.last_mut() {
-                Some(run) if run.row_len == row_len => run.rows.end = row + 1,
-                _ => runs.push(Run { rows: row..row + 1, first_entry: ends[0] as usize, row_len }),
-            }
-        }
+        let runs = runs_of(&self.offsets);
         let StencilBuilder { n_sources, offsets, sources, weights } = self;
         StencilTable { n_sources, offsets, sources, weights, runs }
     }
@@ -229,12 +204,7 @@ impl<W: Weight> StencilBuilder<W> {
 
 /// Rows of `N` entries each.
 #[inline(always)]
-fn apply_run<const N: usize, W: Weight, P: Blend<W>, O: From<P>>(
-    sources: &[u32],
-    weights: &[W],
-    source: &[P],
-    out: &mut [O],
-) {
+fn apply_run<const N: usize, W: Weight, P: Blend<W>>(sources: &[u32], weights: &[W], source: &[P], out: &mut [P]) {
     let (sources, _) = sources.as_chunks::<N>();
     let (weights, _) = weights.as_chunks::<N>();
     for ((out, sources), weights) in out.iter_mut().zip(sources).zip(weights) {
@@ -242,23 +212,17 @@ fn apply_run<const N: usize, W: Weight, P: Blend<W>, O: From<P>>(
         for i in 1..N {
             sum = sum.plus(source[sources[i] as usize].scaled(weights[i]));
         }
-        *out = O::from(sum);
+        *out = sum;
     }
 }
 
 /// Rows of `len` entries each, `len` at least 1.
-fn apply_long_run<W: Weight, P: Blend<W>, O: From<P>>(
-    len: usize,
-    sources: &[u32],
-    weights: &[W],
-    source: &[P],
-    out: &mut [O],
-) {
+fn apply_long_run<W: Weight, P: Blend<W>>(len: usize, sources: &[u32], weights: &[W], source: &[P], out: &mut [P]) {
     for ((out, sources), weights) in out.iter_mut().zip(sources.chunks_exact(len)).zip(weights.chunks_exact(len)) {
         let mut sum = source[sources[0] as usize].scaled(weights[0]);
         for (&s, &weight) in sources[1..].iter().zip(&weights[1..]) {
             sum = sum.plus(source[s as usize].scaled(weight));
         }
-        *out = O::from(sum);
+        *out = sum;
     }
 }

@@ -10,7 +10,7 @@ use glam::{Vec3, vec3};
 
 const STEPS: usize = 48;
 /// Where along the leather the rings stand.
-const RINGS: [f32; 6] = [0.07, 0.20, 0.38, 0.58, 0.79, 0.965];
+const RINGS: [f32; 6] = [0.07, 0.20, 0.38, 0.58, 0.78, 0.955];
 /// Gap between leather and skin, head units.
 const CLEAR: [f32; 6] = [0.05, 0.14, 0.24, 0.28, 0.30, 0.30];
 
@@ -93,7 +93,7 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; 6] {
 
 /// Position in a section: `u` from the front (-1) to the rear margin (1), on the outer (1) or inner (-1) face.
 fn in_section(e: &EarProportions, s: &Section, part: f32, u: f32, face: f32) -> Vec3 {
-    let hw = half_width(e, part).max(0.12 * e.thickness);
+    let hw = half_width(e, part).max(0.5 * e.thickness);
     let thick = 0.5 * e.thickness * (1.0 - 0.35 * part);
     let bulge = e.cup * hw * (0.5 - u * u);
     let wall = thick * (1.0 - ops::powf(u.abs(), 2.5));
@@ -111,6 +111,7 @@ pub(super) fn leather(
     let base: [Vec3; 12] = handles.ear_base.map(|v| at[v as usize]);
     let root = base.iter().sum::<Vec3>() / 12.0;
     let mut sections = march(e, root);
+    let hang = hang(e);
     drape(e, surface, &mut sections);
     for (r, section) in sections.iter().enumerate() {
         let part = RINGS[r];
@@ -126,7 +127,7 @@ pub(super) fn leather(
             let mut p = in_section(e, section, part, u, face);
             if r < 3 {
                 // The leather grows out of its base; the inner face stays hollow, as the concha is.
-                let hold = if face < 0.0 && k != 0 && k != half { 0.45 } else { 0.85 };
+                let hold = if face < 0.0 && k != 0 && k != half { 0.45 + 0.4 * hang } else { 0.85 };
                 let rise = section.centre - root;
                 let keep = hold * (1.0 - smoothstep(0.0, 0.32, part));
                 p = p + (base[k] + rise - p) * keep;
@@ -136,24 +137,35 @@ pub(super) fn leather(
     }
 }
 
+/// How much the leather hangs: 0 pricked, 1 folded over.
+fn hang(e: &EarProportions) -> f32 {
+    smoothstep(0.9, 1.5, e.fold)
+}
+
 /// Moves whole sections along the skin's gradient until the inner face clears the head; leather that is folded over
 /// also sinks until it lies on the head.
 fn drape(e: &EarProportions, surface: &Implicit, sections: &mut [Section; 6]) {
-    let hang = smoothstep(0.9, 1.5, e.fold);
+    let hang = hang(e);
     for _ in 0..6 {
         let mut moves = [Vec3::ZERO; 6];
-        for (r, s) in sections.iter().enumerate() {
+        for (r, s) in sections.iter_mut().enumerate() {
             let (_, g) = surface.sample(s.centre, Layer::Whole);
             let normal = g.normalize_or_zero();
-            let mut nearest = f32::INFINITY;
-            for us in [[-1.0, -0.5], [0.0, 0.5], [1.0, 1.0]] {
+            let mut gaps = [0.0; 6];
+            for (k, us) in [[-1.0, -0.6], [-0.2, 0.2], [0.6, 1.0]].into_iter().enumerate() {
                 let [a, b] = us.map(|u| in_section(e, s, RINGS[r], u, -1.0));
-                for (f, _) in surface.sample2(a, b, Layer::Whole) {
-                    nearest = nearest.min(f);
-                }
+                let [a, b] = surface.sample2(a, b, Layer::Whole);
+                (gaps[2 * k], gaps[2 * k + 1]) = (a.0, b.0);
             }
+            let nearest = gaps.iter().fold(f32::INFINITY, |n, &g| n.min(g));
             let gap = CLEAR[r] - nearest;
-            let sink = hang * smoothstep(0.08, 0.5, RINGS[r]);
+            let sink = hang * smoothstep(0.02, 0.35, RINGS[r]);
+            // A hanging leather turns until both margins are equally near.
+            let width = half_width(e, RINGS[r]).max(0.3);
+            let lean = ((gaps[5] - gaps[0]) / (2.0 * width)).clamp(-0.6, 0.6) * 0.35 * sink;
+            let along = s.across.cross(s.outer);
+            s.across = (s.across - s.outer * lean).normalize_or(s.across);
+            s.outer = along.cross(s.across);
             moves[r] = normal * if gap > 0.0 { gap } else { gap * 0.5 * sink };
         }
         for r in 0..6 {

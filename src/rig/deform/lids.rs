@@ -26,12 +26,13 @@ pub(super) fn place(pins: &mut Pins) {
         let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0);
         // The upper lid is the higher arch; the tear duct draws the medial corner down a little.
         let x = -cos * s.eye_w;
-        let y = sin * s.eye_open * if sin > 0.0 { 0.92 } else { 0.74 } - if k == 0 { 0.06 } else { 0.0 };
+        let arch = sin.abs() * (1.0 + 0.22 * (1.0 - sin.abs()));
+        let y = if sin > 0.0 { 1.02 * arch } else { -0.78 * arch } * s.eye_open - if k == 0 { 0.05 } else { 0.0 };
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
-        let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.36 } else { 1.16 } - if k == 0 { 0.06 } else { 0.0 }, 1.16);
+        let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
-        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.62);
+        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.45);
     }
     pins.set(pins.handles.ep, eye - g * (0.9 * r));
 }

@@ -18,13 +18,15 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
     let hang = |lip: f32| lip - 0.75 * fl + 0.95 * (1.0 - lt);
     let (y1, y0) = (hang(s.lip1() + 0.12), hang(s.lip0() + 0.17));
     const FRONT: f32 = 0.3;
-    let side = vec3(0.62 * w1 + 0.8 * lt, y1, s.muz_len - 2.3);
+    let slim = s.slim();
+    let depth = 0.5 + 1.5 * slim;
+    let side = vec3(0.62 * w1 + 0.8 * lt * slim, y1, s.muz_len - 0.3 - depth);
     if t < FRONT {
         let (sin, cos) = sin_cos(core::f32::consts::FRAC_PI_2 * t / FRONT);
-        let notch = s.lip1() + 0.75 - 0.1 * fl;
+        let notch = s.lip1() + 0.12 + 0.63 * slim - 0.1 * fl;
         let y = notch + (y1 - notch) * smoothstep(0.0, 0.8 * FRONT, t);
         let x = if t == 0.0 { 0.0 } else { side.x * ops::powf(sin, 0.9) };
-        return vec3(x, y, s.muz_len - 0.3 - 2.0 * (1.0 - cos));
+        return vec3(x, y, s.muz_len - 0.3 - depth * (1.0 - cos));
     }
     let u = (t - FRONT) / (1.0 - FRONT);
     let corner = vec3(0.93 * w0 + 0.75 * lt, y0, s.corner_z);

@@ -17,7 +17,7 @@ use super::proportions::Proportions;
 use crate::math::ops;
 use glam::Vec3;
 
-pub use fit::FitPlan;
+pub use fit::{FitPlan, layers};
 pub use lids::eye_axes;
 use limit::LimitPlan;
 

@@ -53,9 +53,11 @@ pub(super) fn place(pins: &mut Pins) {
     for q in 0..10 {
         let u = Vec2::from(RIM[q]);
         pins.set(pins.handles.nr[q], at(u, pad(u * 0.97) + WING[q]));
-        let inner = middle + (u - middle) * vec2(0.70, 0.62);
-        pins.set(pins.handles.ni[q], at(inner, pad(inner * 0.97) - 0.55));
+        // The slit's end is shallow, the round part goes deep.
+        let (narrow, deep) = if (3..=5).contains(&q) { (0.42, 0.42) } else { (0.66, 0.5) };
+        let inner = middle + (u - middle) * narrow;
+        pins.set(pins.handles.ni[q], at(inner, pad(inner * 0.97) - deep));
     }
-    let end: Vec3 = at(middle, pad(middle) - 1.15);
+    let end: Vec3 = at(middle, pad(middle) - 1.0);
     pins.set(pins.handles.np, end);
 }

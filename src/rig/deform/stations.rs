@@ -9,7 +9,7 @@ const MUZZLE: [f32; 8] = [0.12, 0.235, 0.36, 0.49, 0.63, 0.78, 0.90, 1.0];
 /// Parts of the cranial length behind the nasion, rings 9 to 16.
 const CRANIUM: [f32; 8] = [0.08, 0.172, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
 /// Head units along the neck's axis, rings 17 to 19.
-const NECK: [f32; 3] = [2.2, 5.2, 9.0];
+const NECK: [f32; 3] = [2.0, 4.6, 7.6];
 /// Degrees below forward of the chin's fan.
 const CHIN_FAN: [f32; 4] = [14.0, 36.0, 56.0, 74.0];
 

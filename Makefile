@@ -1,0 +1,38 @@
+# Londra. `make run` and `make test` set up what a fresh Debian or Ubuntu machine with Rust lacks; everything else is cargo.
+
+CARGO ?= cargo
+TEST = $(CARGO) test --locked
+
+.PHONY: run test test-all setup bake fmt-check lint doc help
+
+help: ## this list
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/'
+
+run: setup ## build and open the viewer; without a display, draw the contact sheet
+	@scripts/run.sh
+
+test: setup ## every test, with a sample of the large sweeps
+	$(TEST) --features ui-tests
+	@echo "The engine alone, without the dog and without graphics:"
+	$(TEST) --no-default-features
+	@echo "The bits of a frame do not depend on optimisation:"
+	$(TEST) --profile unoptimised --no-default-features --features head --test frame_hash
+	$(TEST) --release --no-default-features --features head --test frame_hash
+
+test-all: export LONDRA_SWEEP = all
+test-all: test ## every test, with the large sweeps in full
+
+setup: ## install what is missing (Debian, Ubuntu)
+	@scripts/setup.sh
+
+bake: ## rebuild the baked assets
+	$(CARGO) run --release --locked -- bake
+
+fmt-check: ## is everything formatted?
+	$(CARGO) fmt --check
+
+lint: ## clippy, warnings denied
+	$(CARGO) clippy --locked --all-targets --features ui-tests -- -D warnings
+
+doc: ## the documentation, private items included, warnings denied
+	RUSTDOCFLAGS=-Dwarnings $(CARGO) doc --locked --no-deps --document-private-items

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Opens the viewer; without a display it draws the contact sheet instead and says where it is.
+set -euo pipefail
+
+londra() {
+    cargo run --release --quiet -- "$@"
+}
+
+cargo build --release
+
+# Exit code 3: no display or no graphics adapter.
+status=0
+londra view || status=$?
+[ "$status" -eq 3 ] || exit "$status"
+
+sheet="$PWD/londra-sheet.png"
+echo "Drawing the contact sheet of all breeds instead."
+londra sheet -o "$sheet"
+echo "The contact sheet is $sheet"

@@ -1,0 +1,258 @@
+//! Commands and options, as clap reads them.
+
+use super::values::{self, Setting, Share};
+use crate::render::{Background, Lens, View as Direction};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// The levels of subdivision that are offered.
+pub(super) const MOST_LEVEL: i64 = 5;
+
+/// A real-time, parametric dog's head.
+#[derive(Debug, Parser)]
+#[command(
+    name = "londra",
+    version,
+    about = "A real-time, parametric dog's head: a window with sliders, pictures, glTF",
+    after_help = "Without a command the window opens. Results go to stdout, messages to stderr.\n\
+        Exit codes: 0 done, 1 failed, 2 wrong use, 3 no display or graphics adapter.\n\
+        The folder named by the variable LONDRA_RIGS (with anatomy.ron and breeds/) overrides the built-in tables.\n\n\
+        Examples:\n  \
+        londra\n  \
+        londra render --breed pug -o pug.png\n  \
+        londra render --breed labrador --blend pug=0.3 --set stop_angle_deg=50 --view side -o mix.png\n  \
+        londra export --breed borzoi -o borzoi.glb\n  \
+        londra sheet -o sheet.png\n\n\
+        'londra COMMAND --help' has more."
+)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Open the window
+    View(View),
+    /// Draw a picture of a head as PNG
+    Render(Render),
+    /// Draw a contact sheet of breeds as PNG
+    Sheet(Sheet),
+    /// Write a head as binary glTF
+    Export(Export),
+    /// Print a hash for each stage of a frame
+    Hash(Hash),
+    /// List breeds or parameters
+    List(List),
+    /// Find every mistake in breed files
+    Check(Check),
+    /// Rebuild the baked assets in Londra's sources
+    Bake(Bake),
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron")]
+pub(super) struct View {
+    /// A breed's file to open
+    #[arg(value_name = "FILE.ron")]
+    pub file: Option<PathBuf>,
+}
+
+/// Changes of a breed that every command understands.
+#[derive(Args, Debug)]
+pub(super) struct Changes {
+    /// Set a measure, in the unit its id ends in; may be repeated, the last one of an id holds
+    #[arg(long = "set", value_name = "ID=VALUE", value_parser = values::setting)]
+    pub set: Vec<Setting>,
+    /// Mix in another breed; may be repeated, the breed itself keeps what is left of 1
+    #[arg(long = "blend", value_name = "NAME|FILE.ron=WEIGHT", value_parser = values::share)]
+    pub blend: Vec<Share>,
+}
+
+/// One head.
+#[derive(Args, Debug)]
+pub(super) struct Subject {
+    /// A breed by name, or a file that ends in .ron
+    #[arg(long, value_name = "NAME|FILE.ron")]
+    pub breed: String,
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// How finely it is made.
+#[derive(Args, Debug)]
+pub(super) struct Detail {
+    /// Level of subdivision, 0 to 5; each level has three times the triangles
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_LEVEL))]
+    pub level: u32,
+    /// Threads to compute with, 1 to 64; the result is the same to the bit
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub threads: u32,
+}
+
+/// From where and before what it is drawn.
+#[derive(Args, Debug)]
+pub(super) struct Scene {
+    /// How far the nose is carried below the horizontal, degrees; each view has its own habit
+    #[arg(long, value_name = "DEG", value_parser = values::pitch, allow_hyphen_values = true)]
+    pub pitch: Option<f32>,
+    /// Focal length in millimetres on 36 x 24, or ortho
+    #[arg(long, value_name = "MM|ortho", default_value = "85")]
+    pub lens: Lens,
+    /// none, white, black, grey, silver, or rrggbb; without it, a quiet grey
+    #[arg(long, value_name = "COLOUR|none", value_parser = values::background)]
+    pub background: Option<Background>,
+}
+
+/// Where the result goes.
+#[derive(Args, Debug)]
+pub(super) struct Target {
+    /// The file to write, - for stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Print what was made as a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    londra render --breed pug -o pug.png\n  \
+    londra render --breed beagle --view side --size 800x600 --background none -o beagle.png\n  \
+    londra render --breed borzoi --blend pug=0.5 --view 120,20 --pitch 0 -o - | display")]
+pub(super) struct Render {
+    #[command(flatten)]
+    pub subject: Subject,
+    /// front, side, three-quarter, top, portrait, or AZIMUTH,ELEVATION in degrees (0 the face, 90 the dog's left)
+    #[arg(
+        long,
+        value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION",
+        default_value = "portrait",
+        allow_hyphen_values = true
+    )]
+    pub view: Direction,
+    /// Width and height of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = values::size)]
+    pub size: Size,
+    #[command(flatten)]
+    pub scene: Scene,
+    #[command(flatten)]
+    pub detail: Detail,
+    #[command(flatten)]
+    pub target: Target,
+}
+
+/// Width and height, pixels.
+pub(super) type Size = [u32; 2];
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    londra sheet -o sheet.png\n  \
+    londra sheet --breeds pug,borzoi,mine.ron --views front,side,-60,15 --fit -o three.png")]
+pub(super) struct Sheet {
+    /// Names or files with commas between, or all
+    #[arg(long, value_name = "A,B,C|all", default_value = "all", value_delimiter = ',')]
+    pub breeds: Vec<String>,
+    /// One breed more or instead of all; may be repeated
+    #[arg(long, value_name = "NAME|FILE.ron")]
+    pub breed: Vec<String>,
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Views with commas between, as for render
+    #[arg(
+        long,
+        value_name = "V1,V2",
+        default_value = "portrait,front,side,top",
+        value_parser = values::views,
+        allow_hyphen_values = true
+    )]
+    pub views: Views,
+    /// Width and height of the whole sheet, pixels; without it, cells of 320 by 320
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<Size>,
+    /// Let every head fill its cell instead of sharing one scale
+    #[arg(long)]
+    pub fit: bool,
+    #[command(flatten)]
+    pub scene: Scene,
+    #[command(flatten)]
+    pub detail: Detail,
+    #[command(flatten)]
+    pub target: Target,
+}
+
+/// A list that is one word of the command line.
+pub(super) type Views = std::vec::Vec<Direction>;
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    londra export --breed pug -o pug.glb\n  \
+    londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
+pub(super) struct Export {
+    #[command(flatten)]
+    pub subject: Subject,
+    #[command(flatten)]
+    pub detail: Detail,
+    /// Who holds the rights, as it shall stand in the file
+    #[arg(long, value_name = "TEXT")]
+    pub copyright: Option<String>,
+    #[command(flatten)]
+    pub target: Target,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    londra hash --breed pug\n  \
+    londra hash --breed pug --blend borzoi=0.5 --level 2 --threads 8 --json")]
+pub(super) struct Hash {
+    #[command(flatten)]
+    pub subject: Subject,
+    #[command(flatten)]
+    pub detail: Detail,
+    /// Print a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  londra list breeds\n  londra list parameters --json")]
+pub(super) struct List {
+    /// What to list
+    pub what: Listed,
+    /// Print a JSON array of objects
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What can be listed.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Listed {
+    /// Breeds by name
+    Breeds,
+    /// Measures with their ranges
+    Parameters,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Prints path:line:column: message for the first syntax error or every error of meaning.\n\n\
+    Examples:\n  londra check mine.ron\n  londra check rigs/breeds/*.ron --json")]
+pub(super) struct Check {
+    /// Breed files, or a table of parameters
+    #[arg(value_name = "FILE.ron", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Print a JSON array of objects
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  londra bake\n  londra bake --check")]
+pub(super) struct Bake {
+    /// Change nothing; fail if a file is not what the program makes
+    #[arg(long)]
+    pub check: bool,
+    /// The folder of Londra's sources
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub root: PathBuf,
+}

@@ -1,0 +1,44 @@
+//! `londra list`.
+
+use super::args::{List, Listed};
+use super::rigs::Rigs;
+use super::{Failure, output};
+use crate::anatomy::ParamSpec;
+use serde_json::{Value, json};
+
+/// Prints names for people, or everything as JSON.
+pub(super) fn run(args: &List) -> Result<(), Failure> {
+    let rigs = Rigs::open()?;
+    match args.what {
+        Listed::Breeds => {
+            let breeds = rigs.ids().iter().map(|id| rigs.breed(id)).collect::<Result<Vec<_>, _>>()?;
+            if args.json {
+                return output::json(&breeds.iter().map(|b| json!({ "id": b.id, "label": b.label })).collect());
+            }
+            let width = breeds.iter().map(|b| b.id.chars().count()).max().unwrap_or(0);
+            let lines = breeds.iter().map(|b| format!("{:width$}  {}", b.id, b.label));
+            output::result(&lines.collect::<Vec<_>>().join("\n"))
+        }
+        Listed::Parameters => {
+            let specs = &rigs.table.specs;
+            if args.json {
+                return output::json(&specs.iter().map(as_json).collect());
+            }
+            let width = specs.iter().map(|s| s.id.len()).max().unwrap_or(0);
+            let lines = specs.iter().map(|s| {
+                let range = format!("{} to {}", s.min, s.max);
+                format!("{:width$}  {:>12}  default {:>6}  {}: {}", s.id, range, s.default, s.group, s.label)
+            });
+            output::result(&lines.collect::<Vec<_>>().join("\n"))
+        }
+    }
+}
+
+fn as_json(spec: &ParamSpec) -> Value {
+    let follows = spec.follows.as_ref().map(|f| json!({ "id": f.id, "exponent": f.exponent }));
+    json!({
+        "id": spec.id, "label": spec.label, "group": spec.group, "unit": spec.unit.name(), "min": spec.min,
+        "max": spec.max, "default": spec.default, "follows": follows, "moves": spec.moves, "help": spec.help,
+        "source": spec.source, "synonyms": spec.synonyms,
+    })
+}

@@ -1,0 +1,104 @@
+//! `londra render` and `londra sheet`.
+
+use super::args::{Render, Scene, Sheet as SheetArgs};
+use super::rigs::Rigs;
+use super::{Failure, output, subject};
+use crate::anatomy::Breed;
+use crate::render::{Background, Camera, Drawing, Gpu, Offscreen, Picture, Sheet};
+use serde_json::json;
+
+/// The side of a cell when nobody says how large the sheet shall be, pixels.
+const CELL: u32 = 320;
+/// Part of the picture left free around a head.
+const MARGIN: f32 = 0.08;
+
+/// Draws one head.
+pub(super) fn render(args: &Render) -> Result<(), Failure> {
+    output::check_target(&args.target.output, args.target.json)?;
+    let rigs = Rigs::open()?;
+    let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
+    let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    let mut offscreen = offscreen()?;
+    let frame = pipeline.update(&breed);
+
+    let mut camera = Camera::at(args.view, args.scene.pitch, args.scene.lens);
+    let [width, height] = args.size;
+    camera.fit(frame.parts.iter().flat_map(|p| p.positions), width as f32 / height as f32, MARGIN);
+    let drawing = Drawing { background: background(&args.scene), ..Drawing::new(camera) };
+    let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
+    let facts = json!({
+        "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
+        "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
+    });
+    write(args.target.output.as_path(), args.target.json, &picture, facts)
+}
+
+/// Draws many heads in many views.
+pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
+    output::check_target(&args.target.output, args.target.json)?;
+    let rigs = Rigs::open()?;
+    let breeds: Vec<Breed> =
+        words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
+    let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    let mut offscreen = offscreen()?;
+
+    let cell = match args.size {
+        Some(size) => Sheet::cell_within(size, breeds.len(), args.views.len()),
+        None => [CELL, CELL],
+    };
+    let Scene { pitch, lens, .. } = args.scene;
+    let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
+    for breed in &breeds {
+        sheet.measure(&pipeline.update(breed));
+    }
+    for breed in &breeds {
+        sheet.add_row(&mut offscreen, &pipeline.update(breed), &breed.label).map_err(Failure::work)?;
+    }
+    let mut picture = sheet.finish();
+    if let Some(size) = args.size {
+        picture = on_paper(&picture, size);
+    }
+    let facts = json!({
+        "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
+        "breeds": breeds.iter().map(|b| b.id.as_str()).collect::<Vec<_>>(),
+        "views": args.views.iter().map(|v| v.name()).collect::<Vec<_>>(), "level": args.detail.level,
+    });
+    write(args.target.output.as_path(), args.target.json, &picture, facts)
+}
+
+/// The breeds asked for: `--breed` stands for itself, beside `--breeds` unless that is `all`.
+fn words(args: &SheetArgs, rigs: &Rigs) -> Vec<String> {
+    let mut words = Vec::new();
+    for word in &args.breeds {
+        if word != "all" {
+            words.push(word.clone());
+        } else if args.breed.is_empty() {
+            words.extend(rigs.ids());
+        }
+    }
+    words.extend(args.breed.iter().cloned());
+    words
+}
+
+/// The sheet in the middle of a picture of exactly the size asked for, on its own paper.
+fn on_paper(sheet: &Picture, [width, height]: [u32; 2]) -> Picture {
+    let paper = sheet.rgba.first_chunk::<4>().copied().unwrap_or([255; 4]);
+    let mut picture = Picture::filled(width, height, paper);
+    picture.paste(sheet, width.saturating_sub(sheet.width) / 2, height.saturating_sub(sheet.height) / 2);
+    picture
+}
+
+fn background(scene: &Scene) -> Background {
+    scene.background.unwrap_or_default()
+}
+
+fn offscreen() -> Result<Offscreen, Failure> {
+    let gpu = Gpu::open().map_err(|error| {
+        Failure::NoDevice(format!("{error}; the commands export, hash, list and check work without one"))
+    })?;
+    Offscreen::new(gpu).map_err(Failure::work)
+}
+
+fn write(output: &std::path::Path, json: bool, picture: &Picture, facts: serde_json::Value) -> Result<(), Failure> {
+    output::file(output, &picture.to_png().map_err(Failure::work)?, json, facts)
+}

@@ -1,0 +1,52 @@
+//! From `--breed`, `--blend` and `--set` to a breed, and from a breed to a frame.
+
+use super::args::{Changes, Detail};
+use super::rigs::Rigs;
+use super::{Failure, values};
+use crate::anatomy::{Breed, ParamTable};
+use crate::frame::Pipeline;
+use crate::rig::Rig;
+use std::sync::Arc;
+
+/// The breed that the words describe: first the breed, then what is mixed in, then what is set.
+pub(super) fn breed(rigs: &Rigs, word: &str, changes: &Changes) -> Result<Breed, Failure> {
+    let base = rigs.breed(word)?;
+    let others: Vec<(Breed, f32)> = changes
+        .blend
+        .iter()
+        .map(|share| Ok((rigs.breed(&share.breed)?, share.weight)))
+        .collect::<Result<_, Failure>>()?;
+    let sum: f32 = others.iter().map(|(_, weight)| weight).sum();
+    // Weights such as 0.1 + 0.2 + 0.7 may pass 1 by a rounding.
+    if sum > 1.0 + 1e-6 {
+        return Err(Failure::Use(format!("the weights of --blend sum to {sum}, at most 1 is there to share")));
+    }
+    let mut parts = vec![(&base, (1.0 - sum).max(0.0))];
+    parts.extend(others.iter().map(|(breed, weight)| (breed, *weight)));
+    let mut breed = Breed::blend(&rigs.table, &parts);
+    for setting in &changes.set {
+        set(&rigs.table, &mut breed, &setting.id, setting.value)?;
+    }
+    Ok(breed)
+}
+
+fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<(), Failure> {
+    let Some(index) = table.index_of(id) else {
+        let near = values::did_you_mean(&table.nearest(id));
+        return Err(Failure::Use(format!("unknown parameter '{id}'{near}; 'londra list parameters' names them all")));
+    };
+    let spec = &table.specs[index];
+    if !(spec.min..=spec.max).contains(&value) {
+        return Err(Failure::Use(format!("{id} is {value}, allowed {} to {}", spec.min, spec.max)));
+    }
+    breed.set_value(table, index, spec.to_si(value));
+    Ok(())
+}
+
+/// A pipeline for the table of the rigs.
+pub(super) fn pipeline(rigs: &Rigs, detail: &Detail) -> Result<Pipeline, Failure> {
+    let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
+    let mut pipeline = Pipeline::new(rig, rigs.table.clone(), detail.level).map_err(Failure::work)?;
+    pipeline.set_threads(detail.threads as usize);
+    Ok(pipeline)
+}

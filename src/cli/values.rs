@@ -1,0 +1,131 @@
+//! Words of the command line as values. Each error says what would be right.
+
+use crate::anatomy::{colour, nearest};
+use crate::render::{Background, View};
+
+/// `ID=VALUE`, not yet compared with the table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Setting {
+    pub id: String,
+    pub value: f64,
+}
+
+/// `NAME=WEIGHT` or `FILE=WEIGHT`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Share {
+    pub breed: String,
+    pub weight: f32,
+}
+
+pub(super) fn setting(text: &str) -> Result<Setting, String> {
+    let (id, value) = text.split_once('=').ok_or("say ID=VALUE, such as stop_angle_deg=40")?;
+    let value = number(value)?;
+    Ok(Setting { id: id.trim().to_owned(), value })
+}
+
+pub(super) fn share(text: &str) -> Result<Share, String> {
+    // A path may contain `=`, a weight may not.
+    let (breed, weight) = text.rsplit_once('=').ok_or("say NAME=WEIGHT or FILE.ron=WEIGHT, such as pug=0.3")?;
+    let weight = number(weight)?;
+    if !(0.0..=1.0).contains(&weight) {
+        return Err(format!("the weight is {weight}, allowed 0 to 1"));
+    }
+    Ok(Share { breed: breed.to_owned(), weight: weight as f32 })
+}
+
+/// `WIDTHxHEIGHT`, pixels.
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let side = |s: &str| s.trim().parse::<u32>().ok().filter(|n| (1..=16_384).contains(n));
+    let pair = sides.and_then(|(w, h)| Some([side(w)?, side(h)?]));
+    pair.ok_or_else(|| "say WIDTHxHEIGHT in pixels, each 1 to 16384, such as 1024x768".into())
+}
+
+/// `none`, a name, or `rrggbb` with or without `#` (which shells take for a comment).
+pub(super) fn background(text: &str) -> Result<Background, String> {
+    const NAMED: [(&str, [u8; 3]); 5] =
+        [("white", [255; 3]), ("black", [0; 3]), ("grey", [128; 3]), ("gray", [128; 3]), ("silver", [192; 3])];
+    if text == "none" {
+        return Ok(Background::None);
+    }
+    if let Some((_, rgb)) = NAMED.iter().find(|(name, _)| *name == text) {
+        return Ok(Background::Plain(*rgb));
+    }
+    let hex = format!("#{}", text.trim_start_matches('#'));
+    let known = colour::from_hex(&hex).map(|linear| Background::Plain(colour::to_srgb8(linear)));
+    known.ok_or_else(|| {
+        let near = nearest(text, NAMED.iter().map(|(name, _)| (*name, *name)).chain([("none", "none")]));
+        format!("say none, white, black, grey, silver or rrggbb such as 20242c{}", did_you_mean(&near))
+    })
+}
+
+/// Degrees, as radians.
+pub(super) fn pitch(text: &str) -> Result<f32, String> {
+    let degrees = number(text)?;
+    if !(-90.0..=90.0).contains(&degrees) {
+        return Err(format!("the pitch is {degrees}, allowed -90 to 90 degrees"));
+    }
+    Ok(degrees.to_radians() as f32)
+}
+
+/// A list of views with commas between; two numbers in a row are one view.
+pub(super) fn views(text: &str) -> Result<Vec<View>, String> {
+    let mut views = Vec::new();
+    let mut words = text.split(',').map(str::trim);
+    while let Some(word) = words.next() {
+        let is_number = word.parse::<f32>().is_ok();
+        let view = match (is_number, is_number.then(|| words.next()).flatten()) {
+            (true, Some(elevation)) => format!("{word},{elevation}").parse(),
+            _ => word.parse::<View>(),
+        };
+        views.push(view.map_err(|e| e.to_string())?);
+    }
+    Ok(views)
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
+    number.ok_or_else(|| format!("'{text}' is no number"))
+}
+
+/// ` (did you mean a or b?)`, or nothing.
+pub(super) fn did_you_mean(names: &[impl AsRef<str>]) -> String {
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    if names.is_empty() { String::new() } else { format!(" (did you mean {}?)", names.join(" or ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_and_shares_are_read_and_refused() {
+        assert_eq!(setting("stop_deg=-4.5").unwrap(), Setting { id: "stop_deg".into(), value: -4.5 });
+        for text in ["stop_deg", "a=b", "a=", "a=nan", "a=inf", "a=1e999", "a=1,5", "a=2*3"] {
+            assert!(setting(text).is_err(), "{text}");
+        }
+        assert_eq!(share("x=y.ron=0.25").unwrap(), Share { breed: "x=y.ron".into(), weight: 0.25 });
+        for text in ["pug", "pug=", "pug=1.1", "pug=-0.1", "pug=NaN"] {
+            assert!(share(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes_colours_and_views_are_read_and_refused() {
+        assert_eq!(size("640x480"), Ok([640, 480]));
+        for text in ["640", "0x5", "5x0", "x", "-5x5", "99999x5", "1e3x5", "640x480x3"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+        assert_eq!(background("none"), Ok(Background::None));
+        assert_eq!(background("#102030"), Ok(Background::Plain([16, 32, 48])));
+        assert_eq!(background("102030"), background("#102030"));
+        assert!(background("whit").unwrap_err().contains("did you mean white?"));
+        assert!(background("12345").is_err());
+        let angles = |a: f32, e: f32| View::Angles { azimuth: a.to_radians(), elevation: e.to_radians() };
+        assert_eq!(views("front,-30,10,top").unwrap(), [View::Front, angles(-30.0, 10.0), View::Top]);
+        for text in ["", "front,", "30", "front,30", "10,side"] {
+            assert!(views(text).is_err(), "{text}");
+        }
+        assert!(pitch("91").is_err() && pitch("x").is_err());
+    }
+}

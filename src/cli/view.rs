@@ -1,0 +1,31 @@
+//! `londra view`.
+
+use super::Failure;
+use super::args::View;
+use super::rigs::Rigs;
+
+/// Opens the window.
+pub(super) fn run(args: &View) -> Result<(), Failure> {
+    let rigs = Rigs::open()?;
+    if let Some(file) = &args.file {
+        rigs.load(file)?;
+    }
+    if let Some(missing) = missing_display() {
+        return Err(Failure::NoDevice(missing));
+    }
+    Err(Failure::work("the window is not built yet"))
+}
+
+/// What to say where no window can be opened, before any library tries.
+fn missing_display() -> Option<String> {
+    let has_one_by_nature = cfg!(any(target_os = "macos", target_os = "windows"));
+    let named = ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"];
+    if has_one_by_nature || named.iter().any(|name| std::env::var_os(name).is_some_and(|v| !v.is_empty())) {
+        return None;
+    }
+    Some(
+        "no display (neither DISPLAY nor WAYLAND_DISPLAY is set) to open a window on; the commands render, sheet, export, \
+         hash, list and check work without one"
+            .into(),
+    )
+}
