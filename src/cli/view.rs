@@ -2,18 +2,18 @@
 
 use super::Failure;
 use super::args::View;
-use super::rigs::Rigs;
+use crate::app::{self, Launch};
 
 /// Opens the window.
 pub(super) fn run(args: &View) -> Result<(), Failure> {
-    let rigs = Rigs::open()?;
-    if let Some(file) = &args.file {
-        rigs.load(file)?;
-    }
     if let Some(missing) = missing_display() {
         return Err(Failure::NoDevice(missing));
     }
-    Err(Failure::work("the window is not built yet"))
+    let breed = args.file.as_ref().map(|file| file.display().to_string());
+    app::run(Launch { breed, ..Launch::here() }).map_err(|error| match error.is_missing_device() {
+        true => Failure::NoDevice(error.to_string()),
+        false => Failure::work(error),
+    })
 }
 
 /// What to say where no window can be opened, before any library tries.
