@@ -10,6 +10,10 @@ use crate::rig::handles::{Handles, NONE};
 use crate::rig::implicit::{Implicit, Layer};
 use glam::Vec3;
 
+/// What a round leaves of the displacement from the start. Below 1 a vertex is drawn back to where the start put it as
+/// far as the surface lets it, and the rounds converge geometrically.
+const KEEP: f32 = 0.75;
+
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
 #[derive(Clone, Debug)]
 struct Spread {
@@ -212,13 +216,12 @@ impl FitPlan {
             }
             for &v in &self.free {
                 let v = v as usize;
-                at[v] = start[v] + (moved[v] + rings.mean(v, moved)) * 0.5;
+                at[v] = start[v] + (moved[v] + rings.mean(v, moved)) * (0.5 * KEEP);
             }
             self.keep_orbit(at, eye_r);
-            for _ in 0..2 {
-                self.project(surface, at);
-            }
+            self.project(surface, at);
         }
+        self.project(surface, at);
     }
 
     /// The orbit's loop stays outside the lid's fold.
