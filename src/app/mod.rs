@@ -1,1 +1,18 @@
-//! The window.
+//! The window: a head, its measures as sliders, its files.
+//!
+//! [`EditorState`] knows what is edited and needs no window; `panels` shows it, `input` turns mouse and keys into
+//! changes of it, `run` owns the window, the device and the file system.
+
+mod camera_control;
+pub mod files;
+mod history;
+mod host;
+pub mod input;
+pub mod panels;
+mod run;
+mod scene;
+mod state;
+mod watch;
+
+pub use run::{AppError, Launch, run};
+pub use state::{Blend, Command, Document, EditorState, Override, Timing};

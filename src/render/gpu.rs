@@ -59,6 +59,18 @@ impl Gpu {
         Self::from_adapter(adapter)
     }
 
+    /// A device that can draw to a window's surface.
+    pub fn open_for(instance: &wgpu::Instance, surface: &wgpu::Surface<'_>) -> Result<Self, GpuError> {
+        let options = wgpu::RequestAdapterOptions { compatible_surface: Some(surface), ..Default::default() };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| no_adapter(e.to_string()))?;
+        Self::from_adapter(adapter)
+    }
+
+    /// Whether a processor does the work of a graphics card.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
     fn from_adapter(adapter: wgpu::Adapter) -> Result<Self, GpuError> {
         let descriptor = device_descriptor(&adapter);
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -74,7 +86,7 @@ impl Gpu {
 }
 
 /// What a device is asked for: the defaults, or less where only GL is to be had. No optional feature is used.
-pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     let limits = if adapter.get_info().backend == wgpu::Backend::Gl {
         wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
     } else {

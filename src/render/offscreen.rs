@@ -38,7 +38,12 @@ pub struct Offscreen {
 impl Offscreen {
     /// Compiles the built-in shaders on the device.
     pub fn new(gpu: Gpu) -> Result<Self, ShaderError> {
-        let painter = Painter::new(&gpu.device, &gpu.queue, &ShaderSources::default(), Quality::Full)?;
+        Self::with_shaders(gpu, &ShaderSources::default())
+    }
+
+    /// Compiles other shaders on the device.
+    pub fn with_shaders(gpu: Gpu, sources: &ShaderSources) -> Result<Self, ShaderError> {
+        let painter = Painter::new(&gpu.device, &gpu.queue, sources, Quality::Full)?;
         Ok(Self { gpu, painter, targets: None })
     }
 

@@ -1,0 +1,53 @@
+//! Orbit, pan and zoom: hand movements in pixels to camera movements.
+
+use crate::render::Camera;
+use std::f32::consts::{FRAC_PI_2, TAU};
+
+/// Radians a pixel.
+const TURN: f32 = 0.0075;
+
+/// Turns about the target.
+pub(super) fn orbit(camera: &mut Camera, right: f32, down: f32) {
+    camera.azimuth = (camera.azimuth - right * TURN) % TAU;
+    camera.elevation = (camera.elevation + down * TURN).clamp(-FRAC_PI_2, FRAC_PI_2);
+}
+
+/// Moves the target so that it stays under the pointer. `height`: of the picture, pixels.
+pub(super) fn pan(camera: &mut Camera, right: f32, down: f32, height: f32) {
+    let metres = camera.height_at_target() / height.max(1.0);
+    let [x, y, _] = camera.axes_in_world();
+    camera.target += (y * down - x * right) * metres;
+}
+
+/// Goes nearer for positive steps, and keeps what is at (x, y) from the middle of the picture, in pixels to the right
+/// and down, where it is.
+pub(super) fn zoom(camera: &mut Camera, steps: f32, x: f32, y: f32, height: f32) {
+    let before = camera.height_at_target();
+    camera.distance = (camera.distance * libm::expf(-steps * 0.12)).clamp(0.02, 20.0);
+    let gained = (before - camera.height_at_target()) / height.max(1.0);
+    let [right, up, _] = camera.axes_in_world();
+    camera.target += (right * x - up * y) * gained;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::{Lens, View};
+
+    #[test]
+    fn zooming_keeps_the_point_under_the_pointer() {
+        let mut camera = Camera::at(View::Portrait, None, Lens::default());
+        let [right, up, _] = camera.axes_in_world();
+        let point = camera.target + (right * 100.0 - up * 60.0) * camera.height_at_target() / 500.0;
+        zoom(&mut camera, 3.0, 100.0, 60.0, 500.0);
+        let now = camera.target + (right * 100.0 - up * 60.0) * camera.height_at_target() / 500.0;
+        assert!((point - now).length() < 1e-5);
+    }
+
+    #[test]
+    fn the_elevation_stops_at_the_poles() {
+        let mut camera = Camera::at(View::Front, None, Lens::default());
+        orbit(&mut camera, 0.0, 1e4);
+        assert_eq!(camera.elevation, FRAC_PI_2);
+    }
+}

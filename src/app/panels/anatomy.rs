@@ -1,0 +1,171 @@
+//! Every measure as a slider with its number, by group.
+
+use crate::anatomy::ParamSpec;
+use crate::app::state::EditorState;
+use egui::{Color32, RichText, Stroke};
+
+/// Search field, filter, and the sliders of what was found.
+pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Search");
+        let field = egui::TextEdit::singleline(&mut state.search).hint_text("muzzle, ear, snout…").desired_width(130.0);
+        ui.add(field).labelled_by(label.id);
+        if !state.search.is_empty() && ui.small_button("×").on_hover_text("Clear the search").clicked() {
+            state.search.clear();
+        }
+        ui.checkbox(&mut state.only_changed, "changed");
+        let any = !state.document().overrides.is_empty();
+        if ui.add_enabled(any, egui::Button::new("Reset all")).clicked() {
+            state.reset_all();
+        }
+    });
+    let found = state.found();
+    if found.is_empty() {
+        ui.weak(if state.only_changed { "No measure has been changed." } else { "No measure is called that." });
+    }
+    let is_narrowed = !state.search.is_empty() || state.only_changed;
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // What a row needs must not widen the panel.
+        ui.set_max_width(ui.available_width());
+        for (group, rows) in groups(state, &found) {
+            let header = egui::CollapsingHeader::new(RichText::new(&group).strong()).default_open(true);
+            let header = header.open(is_narrowed.then_some(true));
+            header.show(ui, |ui| {
+                for index in rows {
+                    row(state, ui, index);
+                }
+            });
+        }
+        ui.add_space(8.0);
+    });
+}
+
+/// Rows under their headings, headings in the order of the table.
+fn groups(state: &EditorState, found: &[usize]) -> Vec<(String, Vec<usize>)> {
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for &index in found {
+        let group = &state.table.specs[index].group;
+        match groups.iter_mut().find(|(name, _)| name == group) {
+            Some((_, rows)) => rows.push(index),
+            None => groups.push((group.clone(), vec![index])),
+        }
+    }
+    groups
+}
+
+/// For the number and the reset arrow, points.
+const NUMBER_WIDTH: f32 = 72.0;
+const RESET_WIDTH: f32 = 22.0;
+
+/// Label above; slider, number and reset below.
+fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
+    let table = state.table.clone();
+    let spec = &table.specs[index];
+    let is_set = state.breed().set[index];
+    let is_changed = state.is_overridden(index);
+    let label = ui.horizontal(|ui| {
+        let mut text = RichText::new(&spec.label);
+        if is_changed {
+            text = text.strong();
+        } else if !is_set {
+            text = text.weak();
+        }
+        let label = ui.label(text).on_hover_ui(|ui| explain(ui, spec));
+        if !is_set {
+            let follows = spec.follows.as_ref().and_then(|f| table.get(&f.id));
+            let what = follows.map_or("default".to_owned(), |f| format!("follows {}", f.label.to_lowercase()));
+            ui.label(RichText::new(what).small().italics().weak());
+        }
+        label
+    });
+    let label = label.inner;
+
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let mut value = spec.from_si(state.breed().values[index]);
+        let before = value;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - RESET_WIDTH - 24.0).max(60.0);
+        // Only a hand may round a value to the slider's step.
+        let slider = egui::Slider::new(&mut value, spec.min..=spec.max).show_value(false).step_by(step(spec));
+        let slider = ui.add(slider.clamping(egui::SliderClamping::Edits)).labelled_by(label.id);
+        marks(ui, &slider, spec, spec.from_si(state.unchanged().values[index]));
+        let number = egui::DragValue::new(&mut value).range(spec.min..=spec.max).suffix(spec.unit.suffix());
+        let number = number
+            .speed((spec.max - spec.min) / 400.0)
+            .max_decimals(3)
+            .update_while_editing(false)
+            .clamp_existing_to_range(false);
+        let number = ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).labelled_by(label.id);
+
+        let doubly = ui.input(|i| i.pointer.button_double_clicked(egui::PointerButton::Primary));
+        if (slider.contains_pointer() || label.contains_pointer()) && doubly {
+            state.reset(index);
+        } else if (slider.changed() || number.changed()) && value != before {
+            if slider.dragged() || number.dragged() || ui.input(|i| i.pointer.any_down()) {
+                state.begin_gesture();
+            }
+            state.set_value(index, spec.to_si(value));
+        }
+        slider.context_menu(|ui| menu(state, ui, index));
+        if is_changed {
+            let reset = egui::Button::new("↺").small().min_size(egui::vec2(RESET_WIDTH, 0.0));
+            let name = format!("Reset {}", spec.label);
+            let reset = ui.add(reset).on_hover_text(&name);
+            reset.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            if reset.clicked() {
+                state.reset(index);
+            }
+        }
+    });
+}
+
+fn menu(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
+    if ui.button("Reset to the breed").clicked() {
+        state.reset(index);
+        ui.close();
+    }
+    if ui.button("Set to the default").clicked() {
+        let default = state.table.specs[index].default_si();
+        state.set_value(index, default);
+        ui.close();
+    }
+    if state.breed().set[index] && ui.button("Let it follow").clicked() {
+        state.let_follow(index);
+        ui.close();
+    }
+}
+
+fn explain(ui: &mut egui::Ui, spec: &ParamSpec) {
+    ui.set_max_width(340.0);
+    ui.strong(&spec.label);
+    ui.label(&spec.help);
+    if !spec.moves.is_empty() {
+        ui.label(format!("Moves: {}", spec.moves));
+    }
+    let suffix = spec.unit.suffix();
+    ui.weak(format!("{}: {} to {}{suffix}, default {}{suffix}", spec.id, spec.min, spec.max, spec.default));
+    if !spec.source.is_empty() {
+        ui.weak(format!("Source: {}", spec.source));
+    }
+}
+
+/// The step of a slider: about a thousandth of the range, as a round number.
+fn step(spec: &ParamSpec) -> f64 {
+    let exponent = ((spec.max - spec.min) / 1000.0).log10().round();
+    10f64.powi(exponent as i32)
+}
+
+/// A tick at the default, a dot at the breed's own value.
+fn marks(ui: &egui::Ui, slider: &egui::Response, spec: &ParamSpec, own: f64) {
+    let rect = slider.rect;
+    let inset = rect.height() / 2.5;
+    let at = |value: f64| {
+        let part = ((value - spec.min) / (spec.max - spec.min)).clamp(0.0, 1.0) as f32;
+        egui::lerp(rect.left() + inset..=rect.right() - inset, part)
+    };
+    let colour: Color32 = ui.visuals().weak_text_color();
+    let x = at(spec.default);
+    let bottom = rect.bottom();
+    ui.painter().line_segment([egui::pos2(x, bottom - 4.0), egui::pos2(x, bottom)], Stroke::new(1.0, colour));
+    ui.painter().circle_filled(egui::pos2(at(own), rect.top() + 2.0), 1.5, colour);
+}

@@ -1,0 +1,74 @@
+//! Which breed, and which other is mixed in.
+
+use crate::app::state::EditorState;
+
+/// The list, the name, and the blend.
+pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
+    egui::Grid::new("breed").num_columns(2).show(ui, |ui| {
+        let label = ui.label("Breed");
+        let chosen = state.document().base.label.clone();
+        let mut choice = None;
+        let list = egui::ComboBox::from_id_salt("breed").width(ui.available_width()).selected_text(chosen);
+        let list = list.height(420.0).show_ui(ui, |ui| {
+            for (index, breed) in state.breeds.iter().enumerate() {
+                if ui.selectable_label(breed.id == state.document().base.id, &breed.label).clicked() {
+                    choice = Some(index);
+                }
+            }
+        });
+        list.response.labelled_by(label.id);
+        if let Some(index) = choice {
+            state.choose(index);
+        }
+        ui.end_row();
+
+        let label = ui.label("Name");
+        let mut name = state.breed().label.clone();
+        let field = egui::TextEdit::singleline(&mut name).desired_width(f32::INFINITY);
+        if ui.add(field).labelled_by(label.id).changed() {
+            state.set_label(&name);
+        }
+        ui.end_row();
+
+        let label = ui.label("Mixed with");
+        partner(state, ui, label.id);
+        ui.end_row();
+
+        if let Some(blend) = state.document().blend.as_ref() {
+            let label = ui.label("How much");
+            let mut percent = blend.weight * 100.0;
+            ui.spacing_mut().slider_width = ui.available_width() - 60.0;
+            let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").max_decimals(0);
+            let slider = ui.add(slider).labelled_by(label.id);
+            if slider.changed() {
+                if ui.input(|i| i.pointer.any_down()) {
+                    state.begin_gesture();
+                }
+                state.set_weight(percent / 100.0);
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn partner(state: &mut EditorState, ui: &mut egui::Ui, label: egui::Id) {
+    let now = state.document().blend.as_ref().map(|b| (b.partner.id.clone(), b.partner.label.clone()));
+    let text = now.as_ref().map_or("nobody", |(_, label)| label).to_owned();
+    let mut choice = None;
+    let list = egui::ComboBox::from_id_salt("partner").width(ui.available_width()).selected_text(text);
+    let list = list.height(420.0).show_ui(ui, |ui| {
+        if ui.selectable_label(now.is_none(), "nobody").clicked() {
+            choice = Some(None);
+        }
+        for (index, breed) in state.breeds.iter().enumerate() {
+            let is_now = now.as_ref().is_some_and(|(id, _)| *id == breed.id);
+            if ui.selectable_label(is_now, &breed.label).clicked() {
+                choice = Some(Some(index));
+            }
+        }
+    });
+    list.response.labelled_by(label);
+    if let Some(partner) = choice {
+        state.set_partner(partner);
+    }
+}

@@ -1,0 +1,85 @@
+//! What stands around the picture: one `ui` function a panel.
+
+pub mod anatomy;
+pub mod breed;
+pub mod files;
+mod keys;
+pub mod view;
+
+use super::input;
+use super::state::{Command, EditorState};
+use std::sync::Arc;
+
+/// Takes the fonts that the program carries: one for reading, one for numbers and signs.
+pub fn set_fonts(ctx: &egui::Context) {
+    let mut fonts = egui::FontDefinitions::empty();
+    let carried = [("text", epaint_default_fonts::UBUNTU_LIGHT), ("numbers", epaint_default_fonts::HACK_REGULAR)];
+    for (name, data) in carried {
+        fonts.font_data.insert(name.to_owned(), Arc::new(egui::FontData::from_static(data)));
+    }
+    let names = |order: [&str; 2]| order.map(str::to_owned).to_vec();
+    fonts.families.insert(egui::FontFamily::Proportional, names(["text", "numbers"]));
+    fonts.families.insert(egui::FontFamily::Monospace, names(["numbers", "text"]));
+    ctx.set_fonts(fonts);
+}
+
+/// The whole window. `picture`: the texture of the head, drawn after this returns. Returns the rectangle it fills,
+/// in points.
+pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::TextureId>) -> egui::Rect {
+    input::keys(state, ui.ctx());
+    egui::Panel::bottom("status").show(ui, |ui| view::status(state, ui));
+    egui::Panel::left("measures").default_size(372.0).size_range(300.0..=620.0).show(ui, |ui| {
+        ui.add_space(4.0);
+        files::ui(state, ui);
+        ui.separator();
+        breed::ui(state, ui);
+        ui.separator();
+        anatomy::ui(state, ui);
+    });
+    egui::Panel::top("view").show(ui, |ui| view::ui(state, ui));
+    let central = egui::CentralPanel::no_frame().show(ui, |ui| {
+        let area = ui.available_size().max(egui::vec2(1.0, 1.0));
+        let (rect, response) = ui.allocate_exact_size(area, egui::Sense::click_and_drag());
+        if let Some(texture) = picture {
+            let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
+        }
+        if response.clicked() || response.drag_started() {
+            // A click beside a text field ends the typing, so that keys steer the camera again.
+            ui.memory_mut(|m| m.stop_text_input());
+        }
+        input::pointer(state, ui, &response);
+        rect
+    });
+    keys::ui(state, ui.ctx());
+    quit_question(state, ui.ctx());
+    if !ui.input(|i| i.pointer.any_down()) {
+        state.end_gesture();
+    }
+    central.inner
+}
+
+/// Asks before changes are lost.
+fn quit_question(state: &mut EditorState, ctx: &egui::Context) {
+    if !state.asks_to_quit {
+        return;
+    }
+    egui::Modal::new(egui::Id::unique("quit")).show(ctx, |ui| {
+        ui.heading("Unsaved changes");
+        ui.label(format!("{} has changes that are in no file.", state.breed().label));
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if ui.button("Save").clicked() {
+                state.asks_to_quit = false;
+                state.commands.push_back(Command::Save);
+            }
+            if ui.button("Leave without saving").clicked() {
+                state.asks_to_quit = false;
+                state.commands.push_back(Command::Quit);
+            }
+            if ui.button("Stay").clicked() {
+                state.asks_to_quit = false;
+            }
+        });
+    });
+}

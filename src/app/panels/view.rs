@@ -1,0 +1,90 @@
+//! How the head is shown, and the line of numbers below it.
+
+use crate::app::state::{EditorState, MOST_LEVEL};
+use crate::render::{Lens, Shading, View};
+
+/// Shading, level, named views, lens.
+pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
+    ui.horizontal_wrapped(|ui| {
+        let kinds = [
+            (Shading::Shaded, "Shaded", "Surfaces"),
+            (Shading::Wireframe, "Wireframe", "Every edge (W)"),
+            (Shading::Control, "Control mesh", "The coarse mesh that is refined (G)"),
+        ];
+        for (kind, label, help) in kinds {
+            if ui.selectable_label(state.shading == kind, label).on_hover_text(help).clicked() {
+                state.shading = kind;
+            }
+        }
+        ui.separator();
+        let label = ui.label("Level");
+        let mut level = state.level();
+        ui.spacing_mut().slider_width = 60.0;
+        let slider = egui::Slider::new(&mut level, 0..=MOST_LEVEL);
+        if ui.add(slider).labelled_by(label.id).on_hover_text("Steps of refinement (+ and −)").changed() {
+            state.set_level(level);
+        }
+        ui.separator();
+        for view in View::NAMED {
+            if ui.button(view.name()).clicked() {
+                state.look_from(view);
+            }
+        }
+        if ui.button("fit").on_hover_text("F").clicked() {
+            state.wants_fit = true;
+        }
+        let mut parallel = state.camera.lens == Lens::Orthographic;
+        if ui.checkbox(&mut parallel, "parallel").on_hover_text("Without perspective").changed() {
+            state.camera.lens = if parallel { Lens::Orthographic } else { Lens::default() };
+        }
+        if ui.selectable_label(state.shows_keys, "?").on_hover_text("Keys").clicked() {
+            state.shows_keys = !state.shows_keys;
+        }
+    });
+}
+
+/// Triangles and times at the right, the last message at the left.
+pub fn status(state: &EditorState, ui: &mut egui::Ui) {
+    ui.horizontal(|ui| {
+        let times = state.timing;
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let numbers = format!(
+                "{} triangles   head {:.1} ms   CPU {:.1} ms   total {:.1} ms",
+                grouped(state.n_triangles),
+                times.head_ms,
+                times.cpu_ms,
+                times.total_ms
+            );
+            ui.monospace(numbers);
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let Some(message) = &state.message else { return };
+                let error = ui.visuals().error_fg_color;
+                let text = egui::RichText::new(&message.text);
+                let text = if message.is_error { text.color(error) } else { text };
+                ui.add(egui::Label::new(text).truncate()).on_hover_text(&message.text);
+            });
+        });
+    });
+}
+
+/// Digits in groups of three.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            out.push('\u{2009}');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn digits_stand_in_groups_of_three() {
+        let plain = |n| super::grouped(n).replace('\u{2009}', " ");
+        assert_eq!([plain(7), plain(1234), plain(123456)], ["7", "1 234", "123 456"]);
+    }
+}
