@@ -103,6 +103,10 @@ fn sides(pins: &mut Pins) {
         let t = f * 0.9;
         let mid = 0.5 * (s.bridge1() + s.lip1()) * (1.0 - t) + 0.5 * (s.bridge0() + s.lip0()) * t;
         from_side(&mut rays, h.s[i][6], mid, z, Layer::Upper);
+        // And over the edge between bridge and side.
+        let edge_at = s.head_from_muzzle(vec3(7.0, mid + 7.5, z + 0.3));
+        let inwards = s.head_from_muzzle(vec3(-0.68, -0.73, 0.0));
+        rays.push(Ray::guide(h.s[i][3], edge_at, inwards, Layer::Upper));
     }
     for (v, y, z) in [
         (h.s[11][6], s.zyg_y + 0.2, -0.20 * cl),
