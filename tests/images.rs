@@ -17,10 +17,18 @@ use londra::rig::Rig;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
-/// Means and percentiles that a picture may differ by. The pinned driver gives the same bytes in every run; other
-/// versions of it round differently at edges of hair and shadow, which stays well below what moves when a lid, a
-/// colour or a light is another (those tests are below).
+/// What a picture may differ by on the pinned driver, llvmpipe of Mesa 22.3, which gives the same bytes in every run.
+/// The margin is below what moves when a muzzle, a colour or a light is a little different: a test below proves it.
 const ALLOWED: Difference = Difference { mean: 0.35, percentile_99: 4.0 };
+
+/// On other software drivers, which round differently at the edges of hair and shadow.
+const ALLOWED_ELSEWHERE: Difference = Difference { mean: 0.9, percentile_99: 9.0 };
+
+fn allowed(offscreen: &Offscreen) -> Difference {
+    let info = offscreen.gpu().adapter.get_info();
+    let is_pinned = info.name.contains("llvmpipe") && info.driver_info.contains("Mesa 22.3");
+    if is_pinned { ALLOWED } else { ALLOWED_ELSEWHERE }
+}
 
 /// One device for all tests, and one at a time: the software driver takes every core anyhow.
 fn offscreen() -> MutexGuard<'static, Offscreen> {
@@ -75,7 +83,7 @@ fn read(path: &PathBuf) -> Option<Picture> {
     Some(Picture { width: info.width, height: info.height, rgba })
 }
 
-fn compare(name: &str, picture: &Picture) {
+fn compare(name: &str, picture: &Picture, allowed: Difference) {
     let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots"));
     let (old, new) = (folder.join(format!("{name}.png")), folder.join(format!("{name}.new.png")));
     let png = picture.to_png().unwrap();
@@ -85,13 +93,13 @@ fn compare(name: &str, picture: &Picture) {
         return;
     }
     let found = read(&old).map(|golden| difference(&golden, picture));
-    let is_good = |d: &Difference| d.mean <= ALLOWED.mean && d.percentile_99 <= ALLOWED.percentile_99;
+    let is_good = |d: &Difference| d.mean <= allowed.mean && d.percentile_99 <= allowed.percentile_99;
     match found {
         Some(d) if is_good(&d) => drop(std::fs::remove_file(new)),
         Some(d) => {
             std::fs::write(&new, png).unwrap();
             panic!(
-                "{name} looks different: {d:?}, allowed {ALLOWED:?}; see {}; UPDATE_SNAPSHOTS=1 accepts it",
+                "{name} looks different: {d:?}, allowed {allowed:?}; see {}; UPDATE_SNAPSHOTS=1 accepts it",
                 new.display()
             );
         }
@@ -106,14 +114,16 @@ fn compare(name: &str, picture: &Picture) {
 fn the_labrador_looks_as_it_did() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("labrador");
-    compare("labrador_portrait", &heads.picture(&mut offscreen, &breed, View::Portrait, |_| ()));
+    let picture = heads.picture(&mut offscreen, &breed, View::Portrait, |_| ());
+    compare("labrador_portrait", &picture, allowed(&offscreen));
 }
 
 #[test]
 fn the_pug_looks_as_it_did() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("pug");
-    compare("pug_front", &heads.picture(&mut offscreen, &breed, View::Front, |_| ()));
+    let picture = heads.picture(&mut offscreen, &breed, View::Front, |_| ());
+    compare("pug_front", &picture, allowed(&offscreen));
 }
 
 #[test]
@@ -121,7 +131,8 @@ fn the_borzoi_looks_as_it_did_from_the_side_before_nothing() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("borzoi");
     let nothing = |d: &mut Drawing| d.background = Background::None;
-    compare("borzoi_side", &heads.picture(&mut offscreen, &breed, View::Side, nothing));
+    let picture = heads.picture(&mut offscreen, &breed, View::Side, nothing);
+    compare("borzoi_side", &picture, allowed(&offscreen));
 }
 
 #[test]
@@ -130,7 +141,8 @@ fn the_lines_look_as_they_did() {
     let breed = heads.breed("german_shepherd");
     for (name, shading) in [("lines_refined", Shading::Wireframe), ("lines_control", Shading::Control)] {
         let change = |d: &mut Drawing| d.shading = shading;
-        compare(name, &heads.picture(&mut offscreen, &breed, View::ThreeQuarter, change));
+        let picture = heads.picture(&mut offscreen, &breed, View::ThreeQuarter, change);
+        compare(name, &picture, allowed(&offscreen));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Orbit, pan and zoom: hand movements in pixels to camera movements.
 
+use crate::math::ops;
 use crate::render::Camera;
 use std::f32::consts::{FRAC_PI_2, TAU};
 
@@ -23,7 +24,7 @@ pub(super) fn pan(camera: &mut Camera, right: f32, down: f32, height: f32) {
 /// and down, where it is.
 pub(super) fn zoom(camera: &mut Camera, steps: f32, x: f32, y: f32, height: f32) {
     let before = camera.height_at_target();
-    camera.distance = (camera.distance * libm::expf(-steps * 0.12)).clamp(0.02, 20.0);
+    camera.distance = (camera.distance * ops::exp(-steps * 0.12)).clamp(0.02, 20.0);
     let gained = (before - camera.height_at_target()) / height.max(1.0);
     let [right, up, _] = camera.axes_in_world();
     camera.target += (right * x - up * y) * gained;

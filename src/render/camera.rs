@@ -4,6 +4,7 @@
 //! positive angles, about the x axis. Cameras stand in the world; azimuth 0 looks at the face from +Z, +90 degrees at
 //! the dog's left side from +X; elevation is positive from above.
 
+use crate::math::ops;
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::str::FromStr;
@@ -169,8 +170,8 @@ impl Camera {
 
     /// Right, up and backward (towards the camera), unit, world.
     pub fn axes_in_world(&self) -> [Vec3; 3] {
-        let (sa, ca) = (libm::sinf(self.azimuth), libm::cosf(self.azimuth));
-        let (se, ce) = (libm::sinf(self.elevation), libm::cosf(self.elevation));
+        let (sa, ca) = ops::sin_cos(self.azimuth);
+        let (se, ce) = ops::sin_cos(self.elevation);
         let right = Vec3::new(ca, 0.0, -sa);
         let back = Vec3::new(sa * ce, se, ca * ce);
         [right, back.cross(right), back]
@@ -178,7 +179,7 @@ impl Camera {
 
     /// Carries directions and points of the head into the world.
     pub fn world_from_head(&self) -> Mat3 {
-        let (s, c) = (libm::sinf(self.pitch), libm::cosf(self.pitch));
+        let (s, c) = ops::sin_cos(self.pitch);
         Mat3::from_cols(Vec3::X, Vec3::new(0.0, c, s), Vec3::new(0.0, -s, c))
     }
 
@@ -243,7 +244,7 @@ impl Camera {
         let half = self.lens.half_height();
         let clip_from_view = match self.lens {
             Lens::Millimetres(_) => {
-                glam::camera::rh::proj::directx::perspective(2.0 * libm::atanf(half), aspect, near, far)
+                glam::camera::rh::proj::directx::perspective(2.0 * ops::atan2(half, 1.0), aspect, near, far)
             }
             Lens::Orthographic => {
                 let (h, w) = (half * self.distance, half * self.distance * aspect);

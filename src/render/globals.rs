@@ -1,6 +1,7 @@
 //! What every shader reads: one uniform block for a picture.
 
 use super::camera::Camera;
+use crate::math::ops;
 use glam::{Mat4, Vec3, Vec4};
 
 /// The block `Globals` of every file of `shaders/`, member by member.
@@ -64,8 +65,9 @@ impl Globals {
         let towards = |lamp: &Lamp| {
             let azimuth = camera.azimuth + light_turn + lamp.azimuth.to_radians();
             let elevation = lamp.elevation.to_radians();
-            let level = libm::cosf(elevation);
-            let direction = Vec3::new(libm::sinf(azimuth) * level, libm::sinf(elevation), libm::cosf(azimuth) * level);
+            let (height, level) = ops::sin_cos(elevation);
+            let (across, forward) = ops::sin_cos(azimuth);
+            let direction = Vec3::new(across * level, height, forward * level);
             (head_from_world * direction).extend(0.0)
         };
         let key = towards(&KEY);
