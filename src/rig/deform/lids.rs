@@ -34,7 +34,7 @@ pub(super) fn place(pins: &mut Pins) {
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
         let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
-        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.45);
+        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free, but starts around this eye.
         let around = on_ball(x * 1.6, y * 1.9, 1.5);
         let around = pins.surface.project(vec3(around.x.max(0.3), around.y, around.z), Layer::Whole, 4);
