@@ -271,7 +271,7 @@ fn a_folder_of_rigs_overrides_what_is_built_in() {
     assert!(broken.stderr.contains("anatomy.ron:1:"), "{}", broken.stderr);
     let nowhere = finished(command(&["list", "breeds"]).env("LONDRA_RIGS", "/nowhere/at/all").output().unwrap());
     assert_eq!(nowhere.code, 1);
-    assert!(nowhere.stderr.contains("is no folder"), "{}", nowhere.stderr);
+    assert!(nowhere.stderr.contains("is no folder of breeds"), "{}", nowhere.stderr);
 }
 
 // ---- export ----
