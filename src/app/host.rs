@@ -52,6 +52,8 @@ pub(super) struct Host {
     title: String,
     /// Of the picture, pixels.
     picture_size: [u32; 2],
+    /// The revision of the head's shape that was drawn last.
+    shape: u64,
 }
 
 impl Host {
@@ -119,6 +121,7 @@ impl Host {
             launch: launch.clone(),
             title: String::new(),
             picture_size: [16, 16],
+            shape: 0,
         };
         host.watch_document();
         host.state.say(format!("Drawn by {}. Press ? for the keys.", host.gpu.name()));
@@ -171,7 +174,10 @@ impl Host {
             self.state.complain(e.to_string());
         }
         let frame = self.pipeline.update(self.state.breed());
-        let head_ms = milliseconds(head_start);
+        // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
+        let has_moved = frame.revisions.shape != self.shape;
+        self.shape = frame.revisions.shape;
+        let head_ms = if has_moved { milliseconds(head_start) } else { self.state.timing.head_ms };
         let [width, height] = self.picture_size;
         let points = frame.parts.iter().flat_map(|p| p.positions);
         self.state.fit_camera(points, width as f32 / height as f32);
