@@ -233,7 +233,7 @@ fn validate_overlooks_a_corrupted_structure() {
         ),
         (tetrahedron(), |(_, _, g)| g[2] = 99, E::OutgoingOutOfRange { vertex: v(2), dedge: d(99) }),
         (tetrahedron(), |(_, _, g)| g[2] = g[1], E::OutgoingElsewhere { vertex: v(2), dedge: d(1) }),
-        (disk(4), |(_, _, g)| g[2] = 5, E::OutgoingNotBoundary { vertex: v(2), boundary: d(4) }),
+        (disk(4), |(_, _, g)| g[2] = 2, E::OutgoingNotBoundary { vertex: v(2), boundary: d(4) }),
         (
             tetrahedron(),
             |(o, t, _)| {
@@ -244,7 +244,7 @@ fn validate_overlooks_a_corrupted_structure() {
             },
             E::BrokenRing { vertex: v(0), walked: 3, faces: 6 },
         ),
-        (pillow(), |(_, t, _)| (t[0], t[5]) = (None, None), E::Unjoined { dedge: d(0), other: d(5) }),
+        (pillow(), |(_, t, g)| (t[0], t[5], g[1]) = (None, None, 5), E::Unjoined { dedge: d(0), other: d(5) }),
     ];
     for (shape, corrupt, expected) in cases {
         let mut broken = parts(&shape);

@@ -120,7 +120,7 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
     let plan = DeformPlan::new(half, handles.clone(), shape);
     let surface = Implicit::new(shape);
     let mut at = vec![Vec3::ZERO; half.n_half()];
-    plan.features(shape, &surface, &mut at);
+    plan.place_features(shape, &surface, &mut at);
     let free: std::collections::BTreeSet<u16> = plan.fit().free().iter().copied().collect();
     let pinned = at.clone();
     for i in 1..20 {

@@ -9,10 +9,10 @@ use glam::{Vec3, vec3};
 
 const SEGMENTS: usize = 72;
 /// Degrees off the optical axis. An iris that fills the fissure: a dog whose white shows looks frightened.
-const PUPIL: f32 = 21.0;
+const PUPIL: f32 = 25.0;
 const IRIS: f32 = 60.0;
 const RINGS: [f32; 21] = [
-    0.0, 7.0, 14.0, PUPIL, PUPIL, 26.0, 31.0, 36.0, 41.0, 46.0, 53.0, IRIS, IRIS, 64.0, 69.0, 75.0, 84.0, 100.0, 120.0,
+    0.0, 8.0, 17.0, PUPIL, PUPIL, 29.0, 33.0, 38.0, 42.5, 46.0, 53.0, IRIS, IRIS, 64.0, 69.0, 75.0, 84.0, 100.0, 120.0,
     145.0, 180.0,
 ];
 

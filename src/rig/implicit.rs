@@ -322,7 +322,6 @@ impl Implicit {
     }
 
     /// Distance and gradient at two points, from four evaluations about each (tetrahedral differences).
-    #[inline]
     pub fn sample2(&self, a: Vec3, b: Vec3, layer: Layer) -> [(f32, Vec3); 2] {
         const H: f32 = 0.02;
         const K: [Vec3; 4] =
@@ -333,7 +332,7 @@ impl Implicit {
             y: F8(std::array::from_fn(|k| at(k).y)),
             z: F8(std::array::from_fn(|k| at(k).z)),
         };
-        let f = self.field(p, layer).0;
+        let f = field(self, p, layer).0;
         std::array::from_fn(|i| {
             let f = &f[4 * i..4 * i + 4];
             let g = K[0] * f[0] + K[1] * f[1] + K[2] * f[2] + K[3] * f[3];
@@ -386,4 +385,10 @@ impl Implicit {
         }
         at(1.0)
     }
+}
+
+/// The field, compiled for the widest vectors that the machine has; the operations and their order are the same.
+#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
+fn field(head: &Implicit, p: P8, layer: Layer) -> F8 {
+    head.field(p, layer)
 }

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::lane::Lane;
-use super::normals::face_normals;
 use super::plan::Plan;
 use super::stencil::StencilTable;
 
@@ -37,7 +36,6 @@ pub struct Evaluator {
     /// The last level.
     finest: Vec<Lane>,
     positions: Vec<Vec3>,
-    face_normals: Vec<Lane>,
     normals: Vec<Vec3>,
     /// None with one thread.
     pool: Option<ThreadPool>,
@@ -52,7 +50,6 @@ impl Evaluator {
             fine: Vec::new(),
             finest: Vec::new(),
             positions: Vec::new(),
-            face_normals: Vec::new(),
             normals: Vec::new(),
             pool: None,
         };
@@ -109,7 +106,6 @@ impl Evaluator {
         self.fine.resize(n_between, Lane::default());
         self.finest.resize(plan.n_vertices(), Lane::default());
         self.positions.resize(plan.n_vertices(), Vec3::ZERO);
-        self.face_normals.resize(plan.n_faces(), Lane::default());
         self.normals.resize(plan.n_vertices(), Vec3::ZERO);
     }
 
@@ -130,22 +126,15 @@ impl Evaluator {
     }
 
     fn find_normals(&mut self, plan: &Plan) {
-        let Evaluator { finest, face_normals: flat, normals, pool, .. } = self;
-        let (indices, around) = (plan.indices(), &plan.vertex_faces);
+        let Evaluator { finest, normals, pool, .. } = self;
         match pool {
             Some(pool) if normals.len() > CHUNK => pool.install(|| {
-                flat.par_chunks_mut(CHUNK)
-                    .zip(indices.par_chunks(3 * CHUNK))
-                    .for_each(|(flat, indices)| face_normals(indices, finest, flat));
                 normals
                     .par_chunks_mut(CHUNK)
                     .enumerate()
-                    .for_each(|(chunk, normals)| around.gather(chunk * CHUNK, flat, normals));
+                    .for_each(|(chunk, normals)| plan.rings.normals(chunk * CHUNK, finest, normals));
             }),
-            _ => {
-                face_normals(indices, finest, flat);
-                around.gather(0, flat, normals);
-            }
+            _ => plan.rings.normals(0, finest, normals),
         }
     }
 }

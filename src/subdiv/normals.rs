@@ -1,10 +1,8 @@
 //! Vertex normals: area-weighted face normals, gathered around each vertex in one-ring order.
 //!
 //! A cross product of two sides is twice the area times the unit normal, so the plain sum is the weighted one.
-//! Gathering, and not scattering, gives each sum one order whatever the number of threads.
-//!
-//! Three loops, shaped so that the compiler makes vector instructions of each: cross products of all faces; sums
-//! around a block of vertices; unit vectors of the block. They stay four floats wide up to the last.
+//! Gathering, and not scattering, gives each sum one order whatever the number of threads. Each face is worked out
+//! three times, once from each corner: that costs less than to store it and fetch it back from a distant cache.
 
 use glam::Vec3;
 
@@ -25,44 +23,40 @@ const HUGE: f32 = 1e30;
 /// Vertices whose sums are made unit vectors together.
 const BLOCK: usize = 64;
 
-/// The triangles around each vertex in one-ring order, in compressed form.
+/// The one-ring of each vertex, in compressed form. Inside the surface the first neighbour stands again at the end, so
+/// that successive entries are the triangles there as well as on the boundary.
 #[derive(Clone, Debug)]
-pub(super) struct VertexFaces {
-    faces: Vec<u32>,
+pub(super) struct Rings {
+    neighbours: Vec<u32>,
     runs: Vec<Run>,
 }
 
-impl VertexFaces {
-    pub(super) fn of(mesh: &DedgeMesh) -> VertexFaces {
+impl Rings {
+    pub(super) fn of(mesh: &DedgeMesh) -> Rings {
         let mut offsets = Vec::with_capacity(mesh.n_vertices() + 1);
-        let mut faces = Vec::with_capacity(mesh.n_dedges());
+        let mut neighbours = Vec::with_capacity(mesh.n_dedges() + mesh.n_vertices());
         offsets.push(0);
         for vertex in mesh.vertices() {
-            faces.extend(mesh.faces_around(vertex).map(|f| f.0));
-            offsets.push(faces.len() as u32);
+            neighbours.extend(mesh.ring(vertex).map(|v| v.0));
+            if !mesh.is_boundary_vertex(vertex) {
+                neighbours.push(mesh.target(mesh.outgoing(vertex)).0);
+            }
+            offsets.push(neighbours.len() as u32);
         }
-        VertexFaces { faces, runs: runs_of(&offsets) }
+        Rings { neighbours, runs: runs_of(&offsets) }
     }
 
-    /// Unit normals of the vertices from `first` on, one for each place in `out`.
-    pub(super) fn gather(&self, first: usize, face_normals: &[Lane], out: &mut [Vec3]) {
+    /// Unit normals of the vertices from `first` on, one for each place in `out`. `positions` are those of all.
+    pub(super) fn normals(&self, first: usize, positions: &[Lane], out: &mut [Vec3]) {
         let mut sums = [Lane::default(); BLOCK];
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let sums = &mut sums[..out.len()];
             let first = first + block * BLOCK;
+            let sums = &mut sums[..out.len()];
+            let centres = &positions[first..first + out.len()];
             for piece in pieces(&self.runs, first..first + sums.len()) {
-                let (faces, sums) = (&self.faces[piece.entries], &mut sums[piece.out]);
-                match piece.row_len {
-                    6 => {
-                        for (sum, faces) in sums.iter_mut().zip(faces.as_chunks::<6>().0) {
-                            *sum = sum_of(faces, face_normals);
-                        }
-                    }
-                    len => {
-                        for (sum, faces) in sums.iter_mut().zip(faces.chunks_exact(len)) {
-                            *sum = sum_of(faces, face_normals);
-                        }
-                    }
+                let rings = self.neighbours[piece.entries].chunks_exact(piece.row_len);
+                for ((sum, &centre), ring) in sums[piece.out.clone()].iter_mut().zip(&centres[piece.out]).zip(rings) {
+                    *sum = sum_of(centre, ring, positions);
                 }
             }
             unit_vectors(sums, out);
@@ -70,34 +64,32 @@ impl VertexFaces {
     }
 }
 
-/// In the order of `faces`, of which there is at least one.
+/// The cross products, as z, x, y, of successive sides from the centre. A ring has two entries or more.
+///
+/// The loop stays a loop: unrolled, the compiler tears the lanes apart.
 #[inline(always)]
-fn sum_of(faces: &[u32], face_normals: &[Lane]) -> Lane {
-    let mut sum = face_normals[faces[0] as usize];
-    for &face in &faces[1..] {
-        sum = sum.plus(face_normals[face as usize]);
+fn sum_of(centre: Lane, ring: &[u32], positions: &[Lane]) -> Lane {
+    let mut last = positions[ring[0] as usize].minus(centre);
+    let mut sum = Lane::default();
+    for &neighbour in &ring[1..] {
+        let side = positions[neighbour as usize].minus(centre);
+        sum = sum.plus(last.cross_zxy(side));
+        last = side;
     }
     sum
 }
 
-/// Twice the area times the unit normal, for each triangle (three indices) of `indices`.
-pub(super) fn face_normals(indices: &[u32], positions: &[Lane], out: &mut [Lane]) {
-    for (out, &[a, b, c]) in out.iter_mut().zip(indices.as_chunks::<3>().0) {
-        let (a, b, c) = (positions[a as usize], positions[b as usize], positions[c as usize]);
-        *out = b.minus(a).cross(c.minus(a));
-    }
-}
-
-/// At most [`BLOCK`] sums, and as many places in `out`.
+/// At most [`BLOCK`] sums as z, x, y, and as many places in `out`.
 #[inline(always)]
 fn unit_vectors(sums: &[Lane], out: &mut [Vec3]) {
     let mut squared = [1.0_f32; BLOCK];
-    for (squared, Lane([x, y, z, _])) in squared.iter_mut().zip(sums) {
+    for (squared, Lane([z, x, y, _])) in squared.iter_mut().zip(sums) {
         *squared = x * x + y * y + z * z;
     }
     let inverse = squared.map(|squared| 1.0 / ops::sqrt(squared));
-    for (i, (out, &sum)) in out.iter_mut().zip(sums).enumerate() {
-        let sum = Vec3::from(sum);
+    for (i, (out, sum)) in out.iter_mut().zip(sums).enumerate() {
+        let [z, x, y, _] = sum.0;
+        let sum = Vec3::new(x, y, z);
         *out = if squared[i] > TINY && squared[i] < HUGE { sum * inverse[i] } else { unit_of_extreme(sum) };
     }
 }
@@ -116,12 +108,12 @@ fn unit_of_extreme(sum: Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{FALLBACK, unit_vectors};
+    use super::{FALLBACK, Lane, unit_vectors};
     use glam::Vec3;
 
     fn unit(sum: Vec3) -> Vec3 {
         let mut out = [Vec3::ZERO];
-        unit_vectors(&[sum.into()], &mut out);
+        unit_vectors(&[Lane([sum.z, sum.x, sum.y, 0.0])], &mut out);
         out[0]
     }
 

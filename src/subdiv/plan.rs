@@ -3,7 +3,7 @@
 use crate::math::fnv::Fnv64;
 use crate::mesh::{DedgeId, DedgeMesh, VertexId};
 
-use super::normals::VertexFaces;
+use super::normals::Rings;
 use super::refine::{Refined, VertexParent, refine};
 use super::scheme::{BoundaryStep, Scheme};
 use super::sqrt3;
@@ -48,7 +48,7 @@ pub struct Plan {
     indices: Vec<u32>,
     face_parent: Vec<u32>,
     boundary_loops: Vec<Vec<u32>>,
-    pub(super) vertex_faces: VertexFaces,
+    pub(super) rings: Rings,
     fingerprint: u64,
 }
 
@@ -69,7 +69,7 @@ impl Plan {
             boundary_loops,
             // Face e of a child comes from face e / 3 of its parent, level by level.
             face_parent: (0..last.n_faces()).map(|f| (f / faces_per_control_face) as u32).collect(),
-            vertex_faces: VertexFaces::of(last),
+            rings: Rings::of(last),
             fingerprint: fingerprint(control, scheme, levels),
             counts: steps.counts,
             tables: steps.tables,

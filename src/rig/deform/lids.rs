@@ -27,12 +27,18 @@ pub(super) fn place(pins: &mut Pins) {
         // The upper lid is the higher arch; the tear duct draws the medial corner down a little.
         let x = -cos * s.eye_w;
         let arch = sin.abs() * (1.0 + 0.22 * (1.0 - sin.abs()));
-        let y = if sin > 0.0 { 1.02 * arch } else { -0.78 * arch } * s.eye_open - if k == 0 { 0.05 } else { 0.0 };
+        // Higher towards the nose: an inner half that slopes down reads as anger.
+        let y = if sin > 0.0 { (1.0 + 0.16 * cos) * arch } else { -0.78 * arch } * s.eye_open
+            - if k == 0 { 0.05 } else { 0.0 };
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
         let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.45);
+        // The orbit's loop is free, but starts around this eye.
+        let around = on_ball(x * 1.6, y * 1.9, 1.5);
+        let around = pins.surface.project(vec3(around.x.max(0.3), around.y, around.z), Layer::Whole, 4);
+        pins.set_guide(pins.handles.orbit[k], around);
     }
     pins.set(pins.handles.ep, eye - g * (0.9 * r));
 }

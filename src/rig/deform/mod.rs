@@ -22,7 +22,7 @@ pub use lids::eye_axes;
 use limit::LimitPlan;
 
 /// Rounds of the live fit.
-pub const ROUNDS: usize = 8;
+pub const ROUNDS: usize = 5;
 
 pub(crate) fn sin_cos(angle: f32) -> (f32, f32) {
     (ops::sin(angle), ops::cos(angle))
@@ -34,7 +34,36 @@ pub struct Pins<'a> {
     surface: &'a Implicit,
     handles: &'a Handles,
     at: &'a mut [Vec3],
+    buffer: &'a mut Vec<Ray>,
     record: Option<&'a mut PinKinds>,
+}
+
+/// Steps of a ray: a fixed number, safeguarded Newton.
+const RAY_STEPS: usize = 9;
+
+/// A ray from outside that places a vertex.
+#[derive(Clone, Copy, Debug)]
+struct Ray {
+    vertex: u16,
+    from: Vec3,
+    towards: Vec3,
+    layer: Layer,
+    /// Shapes the start of the fit only.
+    guide: bool,
+}
+
+impl Ray {
+    fn new(vertex: u16, from: Vec3, towards: Vec3, layer: Layer) -> Self {
+        Self { vertex, from, towards, layer, guide: false }
+    }
+
+    fn guide(vertex: u16, from: Vec3, towards: Vec3, layer: Layer) -> Self {
+        Self { guide: true, ..Self::new(vertex, from, towards, layer) }
+    }
+
+    fn advance(&self, p: Vec3, (f, g): (f32, Vec3)) -> Vec3 {
+        p + self.towards * (f / (-g.dot(self.towards)).max(0.6)).clamp(-3.0, 6.0)
+    }
 }
 
 /// Which vertices the features place: found once, by placing them.
@@ -52,26 +81,48 @@ impl Pins<'_> {
         }
     }
 
-    fn guide(&mut self, v: u16, from: Vec3, towards: Vec3, layer: Layer) {
-        self.at[v as usize] = self.hit(from, towards, layer);
+    /// The list of rays, empty; give it back with [`Pins::keep`], so that its memory serves again.
+    fn rays(&mut self) -> Vec<Ray> {
+        std::mem::take(self.buffer)
+    }
+
+    /// Puts a guide where it is wanted.
+    fn set_guide(&mut self, v: u16, p: Vec3) {
+        self.at[v as usize] = p;
         if let Some(kinds) = &mut self.record {
             kinds.guides[v as usize] = true;
         }
     }
 
-    fn trace(&mut self, v: u16, from: Vec3, towards: Vec3, layer: Layer) {
-        let p = self.hit(from, towards, layer);
-        self.set(v, p);
+    /// Runs the rays that are left and takes the list back.
+    fn keep(&mut self, mut rays: Vec<Ray>) {
+        self.trace(&mut rays);
+        *self.buffer = rays;
     }
 
-    /// Where a ray from outside meets the surface: a fixed number of safeguarded Newton steps along it.
-    fn hit(&self, from: Vec3, towards: Vec3, layer: Layer) -> Vec3 {
-        let mut p = from;
-        for _ in 0..12 {
-            let (f, g) = self.surface.sample(p, layer);
-            p += towards * (f / (-g.dot(towards)).max(0.6)).clamp(-3.0, 6.0);
+    /// Puts vertices where rays from outside meet the surface, two rays at a time; empties the list.
+    fn trace(&mut self, rays: &mut Vec<Ray>) {
+        for pair in rays.chunks(2) {
+            let (a, b) = (&pair[0], &pair[pair.len() - 1]);
+            let (mut p, mut q) = (a.from, b.from);
+            for _ in 0..RAY_STEPS {
+                if a.layer == b.layer {
+                    let [sp, sq] = self.surface.sample2(p, q, a.layer);
+                    (p, q) = (a.advance(p, sp), b.advance(q, sq));
+                } else {
+                    p = a.advance(p, self.surface.sample(p, a.layer));
+                    q = b.advance(q, self.surface.sample(q, b.layer));
+                }
+            }
+            for (ray, hit) in [(a, p), (b, q)] {
+                self.at[ray.vertex as usize] = hit;
+                if let Some(kinds) = &mut self.record {
+                    let list = if ray.guide { &mut kinds.guides } else { &mut kinds.pinned };
+                    list[ray.vertex as usize] = true;
+                }
+            }
         }
-        p
+        rays.clear();
     }
 
     fn place_all(&mut self) {
@@ -92,6 +143,8 @@ pub struct DeformPlan {
     fit: FitPlan,
     limit: LimitPlan,
     base: Vec<Vec3>,
+    /// Where the base head's features put the held vertices; elsewhere the base.
+    anchors: Vec<Vec3>,
     midline: Vec<bool>,
 }
 
@@ -101,6 +154,7 @@ pub struct Scratch {
     start: Vec<Vec3>,
     moved: Vec<Vec3>,
     held: Vec<f32>,
+    rays: Vec<Ray>,
 }
 
 impl DeformPlan {
@@ -112,30 +166,37 @@ impl DeformPlan {
         let mut kinds = PinKinds { pinned: vec![false; n], guides: vec![false; n] };
         let mut at = vec![Vec3::ZERO; n];
         let surface = Implicit::new(base_shape);
-        Pins { shape: base_shape, surface: &surface, handles: &handles, at: &mut at, record: Some(&mut kinds) }
+        let buffer = &mut Vec::new();
+        Pins { shape: base_shape, surface: &surface, handles: &handles, at: &mut at, buffer, record: Some(&mut kinds) }
             .place_all();
         let mut leather = vec![false; n];
         for &v in handles.a.iter().flatten().chain(&handles.a5) {
             leather[v as usize] = true;
         }
+        let mut anchors = base.clone();
+        for v in 0..n {
+            if kinds.pinned[v] || kinds.guides[v] {
+                anchors[v] = if half.midline[v] { at[v].with_x(0.0) } else { at[v] };
+            }
+        }
         let fit = FitPlan::new(half, &rings, &handles, &kinds.pinned, &kinds.guides, &leather);
         let limit = LimitPlan::new(half, &rings, &handles);
-        Self { handles, rings, fit, limit, base, midline: half.midline.clone() }
+        Self { handles, rings, fit, limit, base, anchors, midline: half.midline.clone() }
     }
 
     /// Control positions of the half (`out`: its length) in the proportions' frame and head units, after `rounds` rounds of
     /// the fit ([`ROUNDS`] live).
     pub fn run(&self, shape: &Proportions, rounds: usize, scratch: &mut Scratch, out: &mut [Vec3]) {
         let surface = Implicit::new(shape);
-        self.features(shape, &surface, out);
+        self.features(shape, &surface, &mut scratch.rays, out);
         for &v in self.handles.a.iter().flatten().chain(&self.handles.a5) {
             out[v as usize] = self.base[v as usize];
         }
         for (&v, &b) in self.handles.a[0].iter().zip(&self.handles.ear_base) {
             // Leather is made last; until then its first ring rides on the base, so that it does not hold the skin back.
-            out[v as usize] += out[b as usize] - self.base[b as usize];
+            out[v as usize] += out[b as usize] - self.anchors[b as usize];
         }
-        self.fit.start(&self.base, out, &mut scratch.held);
+        self.fit.start(&self.base, &self.anchors, out, &mut scratch.held);
         scratch.start.clear();
         scratch.start.extend_from_slice(out);
         scratch.moved.resize(out.len(), Vec3::ZERO);
@@ -144,13 +205,18 @@ impl DeformPlan {
     }
 
     /// Places the pinned vertices and guides in `at`.
-    pub fn features(&self, shape: &Proportions, surface: &Implicit, at: &mut [Vec3]) {
-        Pins { shape, surface, handles: &self.handles, at, record: None }.place_all();
+    fn features(&self, shape: &Proportions, surface: &Implicit, buffer: &mut Vec<Ray>, at: &mut [Vec3]) {
+        Pins { shape, surface, handles: &self.handles, at, buffer, record: None }.place_all();
         for (p, mid) in at.iter_mut().zip(&self.midline) {
             if *mid {
                 p.x = 0.0;
             }
         }
+    }
+
+    /// Places the pinned vertices and guides in `at`, for the author of the base.
+    pub fn place_features(&self, shape: &Proportions, surface: &Implicit, at: &mut [Vec3]) {
+        self.features(shape, surface, &mut Vec::new(), at);
     }
 
     /// Ear leather and limit compensation over a fitted skin.

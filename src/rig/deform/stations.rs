@@ -1,6 +1,6 @@
 //! Stations of the two midlines and a few guides at the sides, found on the surface from outside.
 
-use super::{Pins, sin_cos};
+use super::{Pins, Ray, sin_cos};
 use crate::rig::implicit::Layer;
 use glam::{Vec3, vec3};
 
@@ -20,6 +20,7 @@ pub(super) fn place(pins: &mut Pins) {
 }
 
 fn dorsal(pins: &mut Pins) {
+    let mut rays = pins.rays();
     let s = pins.shape;
     let h = pins.handles;
     let edge = s.muzzle_from_head(pins.at[h.s[0][0] as usize]).z;
@@ -27,11 +28,11 @@ fn dorsal(pins: &mut Pins) {
         let z = edge * (1.0 - f);
         let from = s.head_from_muzzle(vec3(0.0, s.bridge0() + 3.5, z));
         let down = s.head_from_muzzle(Vec3::NEG_Y);
-        pins.trace(h.s[1 + k][0], from, down, Layer::Upper);
+        rays.push(Ray::new(h.s[1 + k][0], from, down, Layer::Upper));
     }
     for (k, f) in CRANIUM.into_iter().enumerate() {
         let from = vec3(0.0, s.cran_h + 2.5 + s.dome.max(0.0), -f * s.cran_len);
-        pins.trace(h.s[9 + k][0], from, Vec3::NEG_Y, Layer::Whole);
+        rays.push(Ray::new(h.s[9 + k][0], from, Vec3::NEG_Y, Layer::Whole));
     }
     // Philtrum: from the nose pad down to the lip.
     let (top, lip) = (pins.at[h.s[0][9] as usize], pins.at[h.s[3][9] as usize]);
@@ -39,17 +40,19 @@ fn dorsal(pins: &mut Pins) {
         let t = i as f32 / 3.0;
         let p = top + (lip - top) * t;
         let forward = s.head_from_muzzle(Vec3::Z);
-        pins.trace(h.s[i][9], p + forward * 2.0, -forward, Layer::Upper);
+        rays.push(Ray::new(h.s[i][9], p + forward * 2.0, -forward, Layer::Upper));
     }
     let (start, dir) = s.neck_axis();
     let up = vec3(0.0, -dir.z, dir.y);
     for (k, d) in NECK.into_iter().enumerate() {
         let c = start + dir * d;
-        pins.trace(h.s[17 + k][0], c + up * s.neck_d, -up, Layer::Whole);
+        rays.push(Ray::new(h.s[17 + k][0], c + up * s.neck_d, -up, Layer::Whole));
     }
+    pins.keep(rays);
 }
 
 fn ventral(pins: &mut Pins) {
+    let mut rays = pins.rays();
     let s = pins.shape;
     let h = pins.handles;
     let jz = s.jaw_z();
@@ -58,7 +61,7 @@ fn ventral(pins: &mut Pins) {
         let (sin, cos) = sin_cos(degrees.to_radians());
         let out = vec3(0.0, -sin, cos);
         let (from, out) = (s.head_from_muzzle(root + out * 5.0), s.head_from_muzzle(out));
-        pins.trace(h.l[3][10 + k], from, -out, Layer::Lower);
+        rays.push(Ray::new(h.l[3][10 + k], from, -out, Layer::Lower));
     }
     let back = (jz - 4.95).min(0.6);
     let up = s.head_from_muzzle(Vec3::Y);
@@ -66,37 +69,44 @@ fn ventral(pins: &mut Pins) {
         let t = (i - 3) as f32 / 7.0;
         let z = jz - 1.75 + (back - (jz - 1.75)) * t;
         let from = s.head_from_muzzle(vec3(0.0, s.lip0() - 1.5 * s.jaw_d - 4.0, z));
-        pins.trace(h.l[i][14], from, up, Layer::Lower);
+        rays.push(Ray::new(h.l[i][14], from, up, Layer::Lower));
     }
+    pins.trace(&mut rays);
     // From the jaw's root to the end of the neck, at even steps, across the throat.
     let (start, dir) = s.neck_axis();
     let below = vec3(0.0, dir.z, -dir.y);
     let from = pins.at[h.l[10][14] as usize];
     let end = start + dir * NECK[2] + below * (0.5 * s.neck_d);
-    pins.trace(h.l[19][14], start + dir * NECK[2] + below * s.neck_d, -below, Layer::Whole);
+    rays.push(Ray::new(h.l[19][14], start + dir * NECK[2] + below * s.neck_d, -below, Layer::Whole));
     for i in 11..19 {
         let t = (i - 10) as f32 / 9.0;
         let p = from + (end - from) * t;
         let out = (Vec3::NEG_Y * (1.0 - t) + below * t).normalize_or_zero();
-        pins.trace(h.l[i][14], p + out * 6.0, -out, Layer::Whole);
+        rays.push(Ray::new(h.l[i][14], p + out * 6.0, -out, Layer::Whole));
     }
+    pins.keep(rays);
 }
 
 /// Guides: they shape the start of the fit and are free afterwards.
 fn sides(pins: &mut Pins) {
+    let mut rays = pins.rays();
     let s = pins.shape;
     let h = pins.handles;
     let cl = s.cran_len;
-    let from_side = |pins: &mut Pins, v: u16, y: f32, z: f32, layer: Layer| {
+    let from_side = |rays: &mut Vec<Ray>, v: u16, y: f32, z: f32, layer: Layer| {
         let p = s.head_from_muzzle(vec3(16.0, y, z));
-        pins.guide(v, p, Vec3::NEG_X, layer);
+        rays.push(Ray::guide(v, p, Vec3::NEG_X, layer));
     };
     let edge = s.muzzle_from_head(pins.at[h.s[0][0] as usize]).z;
     for (i, f) in [(2, 0.24), (4, 0.42), (6, 0.66)] {
         let z = edge * (1.0 - f);
         let t = f * 0.9;
         let mid = 0.5 * (s.bridge1() + s.lip1()) * (1.0 - t) + 0.5 * (s.bridge0() + s.lip0()) * t;
-        from_side(pins, h.s[i][6], mid, z, Layer::Upper);
+        from_side(&mut rays, h.s[i][6], mid, z, Layer::Upper);
+        // And over the edge between bridge and side.
+        let edge_at = s.head_from_muzzle(vec3(7.0, mid + 7.5, z + 0.3));
+        let inwards = s.head_from_muzzle(vec3(-0.68, -0.73, 0.0));
+        rays.push(Ray::guide(h.s[i][3], edge_at, inwards, Layer::Upper));
     }
     for (v, y, z) in [
         (h.s[11][6], s.zyg_y + 0.2, -0.20 * cl),
@@ -107,11 +117,11 @@ fn sides(pins: &mut Pins) {
         (h.s[12][3], 0.3 * s.cran_h, -0.35 * cl),
     ] {
         let p = vec3(16.0, y, z);
-        pins.guide(v, p, Vec3::NEG_X, Layer::Whole);
+        rays.push(Ray::guide(v, p, Vec3::NEG_X, Layer::Whole));
     }
     for i in [8, 10] {
         let z = pins.at[h.l[i][14] as usize].z + 0.6;
-        from_side(pins, h.l[i][11], s.lip0() - 0.6 * s.jaw_d, z, Layer::Lower);
+        from_side(&mut rays, h.l[i][11], s.lip0() - 0.6 * s.jaw_d, z, Layer::Lower);
     }
     // Round the neck: its end is cut flat, the ring before it only guided.
     let (start, dir) = s.neck_axis();
@@ -121,10 +131,11 @@ fn sides(pins: &mut Pins) {
         let out = up * cos + Vec3::X * sin;
         let reach = s.neck_d.max(s.neck_w);
         let v = if j < 10 { h.s[19][j] } else { h.l[19][j] };
-        pins.trace(v, start + dir * NECK[2] + out * reach, -out, Layer::Whole);
+        rays.push(Ray::new(v, start + dir * NECK[2] + out * reach, -out, Layer::Whole));
         if j % 3 == 2 {
             let v = if j < 10 { h.s[18][j] } else { h.l[18][j] };
-            pins.guide(v, start + dir * NECK[1] + out * reach, -out, Layer::Whole);
+            rays.push(Ray::guide(v, start + dir * NECK[1] + out * reach, -out, Layer::Whole));
         }
     }
+    pins.keep(rays);
 }
