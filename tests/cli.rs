@@ -399,6 +399,16 @@ fn without_a_display_the_window_is_refused_with_one_sentence() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_display_that_does_not_answer_is_as_good_as_none() {
+    for (variable, value) in [("DISPLAY", ":7777"), ("WAYLAND_DISPLAY", "wayland-7777")] {
+        let run = finished(command(&["view"]).env(variable, value).output().unwrap());
+        assert_eq!((run.code, run.stdout.as_str()), (3, ""), "{}", run.stderr);
+        assert!(run.stderr.contains("no display"), "{}", run.stderr);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn without_an_adapter_pictures_are_refused_with_one_sentence() {
     let folder = folder();
     let path = folder.path().join("pug.png");
