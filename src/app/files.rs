@@ -1,5 +1,6 @@
 //! Breeds, tables and shaders from the disk, and what is written to it.
 
+use super::disk;
 use super::state::{Blend, Document, EditorState};
 use crate::anatomy::{Breed, ParamTable, library, load_breed};
 use std::collections::BTreeMap;
@@ -13,12 +14,12 @@ pub fn read_breed(table: &ParamTable, path: &Path) -> Result<Breed, String> {
 
 /// Reads a text.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    crate::cli::files::read_text(path).map_err(|e| e.to_string())
+    disk::read_text(path).map_err(|e| e.to_string())
 }
 
 /// Writes a file whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    crate::cli::files::write_atomic(path, bytes).map_err(|e| e.to_string())
+    disk::write_atomic(path, bytes).map_err(|e| e.to_string())
 }
 
 /// The table and the breeds, sorted by id: the program's own, overridden by a folder like `rigs/` where there is one.

@@ -69,7 +69,10 @@ impl Host {
             .with_inner_size(winit::dpi::LogicalSize::new(1280.0, 800.0));
         let window = event_loop.create_window(attributes).map_err(|e| HostError::Window(e.to_string()))?;
         let window = Arc::new(window);
-        let surface = instance.create_surface(window.clone()).map_err(|e| HostError::Other(e.to_string()))?;
+        // Without any driver there is not even a surface to look for an adapter with.
+        let surface = instance
+            .create_surface(window.clone())
+            .map_err(|e| HostError::Gpu(GpuError::NoAdapter { detail: e.to_string(), hint: String::new() }))?;
         let gpu = Gpu::open_for(instance, &surface).map_err(HostError::Gpu)?;
 
         let size = window.inner_size();

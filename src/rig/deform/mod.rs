@@ -18,7 +18,7 @@ use crate::math::ops;
 use glam::Vec3;
 
 pub use fit::{FitPlan, layers};
-pub use lids::eye_axes;
+pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
 
 /// Rounds of the live fit.

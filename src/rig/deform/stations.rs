@@ -5,9 +5,9 @@ use crate::rig::implicit::Layer;
 use glam::{Vec3, vec3};
 
 /// Parts of the way from the nose pad's upper edge to the nasion, rings 1 to 8.
-const MUZZLE: [f32; 8] = [0.12, 0.235, 0.36, 0.49, 0.63, 0.78, 0.90, 1.0];
+const MUZZLE: [f32; 8] = [0.12, 0.235, 0.355, 0.48, 0.61, 0.735, 0.85, 0.965];
 /// Parts of the cranial length behind the nasion, rings 9 to 16.
-const CRANIUM: [f32; 8] = [0.08, 0.172, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
+const CRANIUM: [f32; 8] = [0.07, 0.168, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
 /// Head units along the neck's axis, rings 17 to 19.
 const NECK: [f32; 3] = [2.0, 4.6, 7.6];
 /// Degrees below forward of the chin's fan.
