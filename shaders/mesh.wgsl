@@ -163,11 +163,11 @@ fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
     }
     let scale = SKEW * (1.0 / (width * 64.0));
     var sum = vec4<f32>(0.0);
-    for (var i = 0; i < 5; i++) {
-        let s = (f32(i) - 2.0) * 1.9 * width;
+    for (var i = 0; i < 7; i++) {
+        let s = (f32(i) - 3.0) * 1.45 * width;
         sum += textureSampleLevel(noise_block, noise_sampler, scale * (position + along * s), 0.0);
     }
-    return (sum / 5.0 - 0.5) * 6.8;
+    return (sum / 7.0 - 0.5) * 7.6;
 }
 
 // Smooth noise of blobs `width` metres across, about -1 to 1.
@@ -231,8 +231,8 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     let mottle = blobs(p.position, 0.035 * size).y * fur;
 
     let sideways = cross(p.normal, lean);
-    p.normal = unit(p.normal + sideways * (fine.y * 0.30 + locks.y * 0.34) + lean * (locks.z * 0.16), p.normal);
-    let shade = fine.x * 0.20 + locks.x * 0.20 + mottle * 0.10;
+    p.normal = unit(p.normal + sideways * (fine.y * 0.26 + locks.y * 0.22) + lean * (locks.z * 0.10), p.normal);
+    let shade = fine.x * 0.18 + locks.x * 0.15 + mottle * 0.08;
     let albedo = colour * exp(shade);
 
     let facing = clamp(dot(smooth_normal, p.view), 0.0, 1.0);
@@ -296,7 +296,9 @@ fn eye(p: Point, colour: vec3<f32>) -> vec3<f32> {
     light += colour * KEY * 0.35 * across * across * p.lit;
     let mirror = reflect(-p.view, p.normal);
     let cosine = dot(p.view, p.normal);
-    let window = smoothstep(0.945, 0.962, dot(mirror, globals.key.xyz));
+    // The window that eyes mirror stands nearer to the camera than the key light, or the lid would cover it.
+    let lamp = unit(globals.key.xyz + p.view * 0.75, p.view);
+    let window = smoothstep(0.952, 0.968, dot(mirror, lamp));
     let second = smoothstep(0.86, 0.93, dot(mirror, globals.fill.xyz));
     light += KEY * window * 0.95 + FILL * second * 0.22;
     light += sky(mirror) * fresnel(cosine) * 1.1 * under_lid * p.open;
@@ -340,7 +342,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     var light: vec3<f32>;
     switch kind {
         case NOSE: {
-            light = leather(point, colour, max(gloss, 0.6), 260.0, 0.75, 0.24);
+            light = leather(point, colour, max(gloss, 0.6), 310.0, 0.65, 0.24);
         }
         case LIP: {
             light = leather(point, colour, max(gloss, 0.35), 420.0, 0.35, 0.38);

@@ -271,7 +271,7 @@ fn a_folder_of_rigs_overrides_what_is_built_in() {
     assert!(broken.stderr.contains("anatomy.ron:1:"), "{}", broken.stderr);
     let nowhere = finished(command(&["list", "breeds"]).env("LONDRA_RIGS", "/nowhere/at/all").output().unwrap());
     assert_eq!(nowhere.code, 1);
-    assert!(nowhere.stderr.contains("is no folder"), "{}", nowhere.stderr);
+    assert!(nowhere.stderr.contains("is no folder of breeds"), "{}", nowhere.stderr);
 }
 
 // ---- export ----
@@ -395,6 +395,16 @@ fn without_a_display_the_window_is_refused_with_one_sentence() {
         assert_eq!(run.stderr.trim().lines().count(), 1, "{}", run.stderr);
     }
     refused(&["view", "/nowhere/pug.ron"], 1, &["no such file"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_display_that_does_not_answer_is_as_good_as_none() {
+    for (variable, value) in [("DISPLAY", ":7777"), ("WAYLAND_DISPLAY", "wayland-7777")] {
+        let run = finished(command(&["view"]).env(variable, value).output().unwrap());
+        assert_eq!((run.code, run.stdout.as_str()), (3, ""), "{}", run.stderr);
+        assert!(run.stderr.contains("no display"), "{}", run.stderr);
+    }
 }
 
 #[cfg(target_os = "linux")]

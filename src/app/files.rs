@@ -1,5 +1,6 @@
 //! Breeds, tables and shaders from the disk, and what is written to it.
 
+use super::disk;
 use super::state::{Blend, Document, EditorState};
 use crate::anatomy::{Breed, ParamTable, library, load_breed};
 use std::collections::BTreeMap;
@@ -13,17 +14,12 @@ pub fn read_breed(table: &ParamTable, path: &Path) -> Result<Breed, String> {
 
 /// Reads a text.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path).map_err(|e| format!("{}: cannot be read: {e}", path.display()))
+    disk::read_text(path).map_err(|e| e.to_string())
 }
 
 /// Writes a file whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let failed = |e: &dyn std::fmt::Display| format!("{}: cannot be written: {e}", path.display());
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|e| failed(&e))?;
-    std::io::Write::write_all(&mut file, bytes).map_err(|e| failed(&e))?;
-    file.persist(path).map_err(|e| failed(&e.error))?;
-    Ok(())
+    disk::write_atomic(path, bytes).map_err(|e| e.to_string())
 }
 
 /// The table and the breeds, sorted by id: the program's own, overridden by a folder like `rigs/` where there is one.

@@ -52,6 +52,8 @@ pub(super) struct Host {
     title: String,
     /// Of the picture, pixels.
     picture_size: [u32; 2],
+    /// The revision of the head's shape that was drawn last.
+    shape: u64,
 }
 
 impl Host {
@@ -67,7 +69,10 @@ impl Host {
             .with_inner_size(winit::dpi::LogicalSize::new(1280.0, 800.0));
         let window = event_loop.create_window(attributes).map_err(|e| HostError::Window(e.to_string()))?;
         let window = Arc::new(window);
-        let surface = instance.create_surface(window.clone()).map_err(|e| HostError::Other(e.to_string()))?;
+        // Without any driver there is not even a surface to look for an adapter with.
+        let surface = instance
+            .create_surface(window.clone())
+            .map_err(|e| HostError::Gpu(GpuError::NoAdapter { detail: e.to_string(), hint: String::new() }))?;
         let gpu = Gpu::open_for(instance, &surface).map_err(HostError::Gpu)?;
 
         let size = window.inner_size();
@@ -119,6 +124,7 @@ impl Host {
             launch: launch.clone(),
             title: String::new(),
             picture_size: [16, 16],
+            shape: 0,
         };
         host.watch_document();
         host.state.say(format!("Drawn by {}. Press ? for the keys.", host.gpu.name()));
@@ -171,7 +177,10 @@ impl Host {
             self.state.complain(e.to_string());
         }
         let frame = self.pipeline.update(self.state.breed());
-        let head_ms = milliseconds(head_start);
+        // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
+        let has_moved = frame.revisions.shape != self.shape;
+        self.shape = frame.revisions.shape;
+        let head_ms = if has_moved { milliseconds(head_start) } else { self.state.timing.head_ms };
         let [width, height] = self.picture_size;
         let points = frame.parts.iter().flat_map(|p| p.positions);
         self.state.fit_camera(points, width as f32 / height as f32);

@@ -4,6 +4,7 @@
 //! changes of it, `run` owns the window, the device and the file system.
 
 mod camera_control;
+pub mod disk;
 pub mod files;
 mod history;
 mod host;

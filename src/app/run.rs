@@ -54,13 +54,15 @@ pub struct Launch {
 }
 
 impl Launch {
-    /// With the folders that a developer has in the working folder, where they are there.
+    /// With the folder that `LONDRA_RIGS` names, or else those that a developer has in the working folder.
     pub fn here() -> Self {
         let with = |folder: &str, file: &str| {
             let folder = PathBuf::from(folder);
             folder.join(file).is_file().then_some(folder)
         };
-        Self { breed: None, rigs: with("rigs", "anatomy.ron"), shaders: with("shaders", "mesh.wgsl") }
+        let named = std::env::var_os("LONDRA_RIGS").filter(|f| !f.is_empty()).map(PathBuf::from);
+        let rigs = named.or_else(|| with("rigs", "anatomy.ron"));
+        Self { breed: None, rigs, shaders: with("shaders", "mesh.wgsl") }
     }
 }
 

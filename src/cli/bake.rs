@@ -1,7 +1,8 @@
 //! `londra bake`.
 
 use super::args::Bake;
-use super::{Failure, files, output};
+use super::{Failure, output};
+use crate::app::disk;
 use crate::author::bake;
 
 /// Rebuilds the baked assets of a source tree, or proves that they are what the program makes.
@@ -13,9 +14,9 @@ pub(super) fn run(args: &Bake) -> Result<(), Failure> {
     let mut stale = Vec::new();
     for baked in bake::all().map_err(Failure::work)? {
         let path = args.root.join(baked.path);
-        let is_current = match files::read_text(&path) {
+        let is_current = match disk::read_text(&path) {
             Ok(text) => text == baked.text,
-            Err(files::FileError::Missing { .. }) => false,
+            Err(disk::FileError::Missing { .. }) => false,
             Err(error) => return Err(error.into()),
         };
         if is_current {
@@ -23,7 +24,7 @@ pub(super) fn run(args: &Bake) -> Result<(), Failure> {
         } else if args.check {
             stale.push(path.display().to_string());
         } else {
-            files::write_atomic(&path, baked.text.as_bytes())?;
+            disk::write_atomic(&path, baked.text.as_bytes())?;
             output::message(&format!("wrote {}", path.display()));
         }
     }

@@ -1,8 +1,8 @@
 //! Why a command did not do what it was asked, and the exit code that says so.
 
-use super::files::FileError;
 use crate::anatomy::LoadErrors;
 use crate::anatomy::library::LibraryError;
+use crate::app::disk::FileError;
 
 /// The end of a command that did not succeed.
 #[derive(Debug)]

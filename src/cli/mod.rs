@@ -7,7 +7,6 @@ mod bake;
 mod check;
 mod export;
 mod failure;
-pub mod files;
 mod hash;
 mod list;
 mod output;

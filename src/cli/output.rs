@@ -1,7 +1,7 @@
 //! Where words and bytes go: results to stdout or a file, messages to stderr. A closed pipe is never a panic.
 
 use super::Failure;
-use super::files::write_atomic;
+use crate::app::disk::write_atomic;
 use serde_json::Value;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;

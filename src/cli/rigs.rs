@@ -1,8 +1,8 @@
 //! The table of measures and the breeds: those of the program, or those of a folder on disk that overrides them.
 
-use super::files::{self, FileError};
 use super::{Failure, values};
 use crate::anatomy::{Breed, LoadErrors, ParamTable, library, load_breed, nearest};
+use crate::app::disk::{self, FileError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -19,13 +19,20 @@ pub(super) struct Rigs {
 impl Rigs {
     /// The program's own, overridden by what stands in the folder `LONDRA_RIGS`.
     pub fn open() -> Result<Self, Failure> {
-        let folder = std::env::var_os(FOLDER).filter(|f| !f.is_empty()).map(PathBuf::from);
+        Self::open_in(folder())
+    }
+
+    /// The program's own, overridden by what stands in a folder.
+    pub fn open_in(folder: Option<PathBuf>) -> Result<Self, Failure> {
         if let Some(folder) = folder.as_ref().filter(|f| !f.is_dir()) {
-            return Err(Failure::work(format!("{FOLDER} names {}, which is no folder", folder.display())));
+            return Err(Failure::work(format!(
+                "{}: is no folder of breeds, though {FOLDER} names it",
+                folder.display()
+            )));
         }
         let own = folder.as_ref().map(|f| f.join("anatomy.ron")).filter(|p| p.exists());
         let table = match own {
-            Some(path) => ParamTable::parse(&path.display().to_string(), &files::read_text(&path)?)?,
+            Some(path) => ParamTable::parse(&path.display().to_string(), &disk::read_text(&path)?)?,
             None => ParamTable::embedded()?,
         };
         Ok(Self { table: Arc::new(table), folder })
@@ -50,12 +57,12 @@ impl Rigs {
 
     /// Reads a breed's file.
     pub fn load(&self, path: &Path) -> Result<Breed, Failure> {
-        Ok(load_breed(&self.table, &path.display().to_string(), &files::read_text(path)?)?)
+        Ok(load_breed(&self.table, &path.display().to_string(), &disk::read_text(path)?)?)
     }
 
     /// Compares a file with the table: a breed's file, or a table itself.
     pub fn check(&self, path: &Path) -> Result<Result<(), LoadErrors>, FileError> {
-        let (name, text) = (path.display().to_string(), files::read_text(path)?);
+        let (name, text) = (path.display().to_string(), disk::read_text(path)?);
         let as_breed = load_breed(&self.table, &name, &text).map(drop);
         let is_table = text.lines().map(str::trim_start).find(|l| !l.is_empty() && !l.starts_with("//"));
         let is_table = is_table.is_some_and(|line| line.starts_with("Anatomy"));
@@ -80,6 +87,11 @@ impl Rigs {
         let path = self.folder.as_ref().filter(|_| plain)?.join("breeds").join(format!("{id}.ron"));
         path.exists().then_some(path)
     }
+}
+
+/// The folder that the environment names, if it does.
+pub(super) fn folder() -> Option<PathBuf> {
+    std::env::var_os(FOLDER).filter(|f| !f.is_empty()).map(PathBuf::from)
 }
 
 /// Whether a word of the command line is a file's name rather than a breed's.

@@ -2,18 +2,29 @@
 
 use super::Failure;
 use super::args::View;
-use super::rigs::Rigs;
+use super::rigs::{self, Rigs};
+use crate::app::{self, Launch};
+use std::path::Path;
 
 /// Opens the window.
 pub(super) fn run(args: &View) -> Result<(), Failure> {
-    let rigs = Rigs::open()?;
+    let here = Launch::here();
+    let folder = rigs::folder().or(here.rigs.clone());
+    // A wrong file is told as on every other command, before a window is tried.
+    let rigs = Rigs::open_in(folder.clone())?;
     if let Some(file) = &args.file {
         rigs.load(file)?;
     }
     if let Some(missing) = missing_display() {
         return Err(Failure::NoDevice(missing));
     }
-    Err(Failure::work("the window is not built yet"))
+    // With a folder in it the word is a path, whatever it ends in.
+    let breed = args.file.as_ref().map(|file| Path::new(".").join(file).display().to_string());
+    let launch = Launch { breed, rigs: folder, ..here };
+    app::run(launch).map_err(|error| match error.is_missing_device() {
+        true => Failure::NoDevice(error.to_string()),
+        false => Failure::work(error),
+    })
 }
 
 /// What to say where no window can be opened, before any library tries.

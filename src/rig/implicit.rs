@@ -159,7 +159,7 @@ impl Implicit {
         let (eye, fl, lt, dome) = (s.eye(), s.flew, s.lip_t, s.dome);
         let (neck_a, neck_dir) = s.neck_axis();
         let neck_x = s.neck_w / s.neck_d;
-        let slim = s.slim();
+        let pad = 0.35 + 0.65 * s.slim();
         let ropes = |scale: f32| {
             let inset = 0.5 - 0.45 * s.wrinkle;
             let at = [
@@ -241,8 +241,8 @@ impl Implicit {
                 rounding: 0.62,
             },
             whisker_pad: Ellipsoid::new(
-                vec3(0.52 * w1, lip1 + 0.3 + 1.45 * slim - 0.2 * fl, length - 0.4 - 1.8 * slim),
-                vec3(0.58 * w1 * lt + 0.15, 0.8 + 1.2 * slim, 0.8 + 1.4 * slim),
+                vec3(0.52 * w1, lip1 + 1.75 * pad - 0.2 * fl, length - 2.2 * pad),
+                vec3(0.58 * w1 * lt + 0.15 * pad, 2.0 * pad, 2.2 * pad),
             ),
             flew: Cone::new(
                 vec3(0.62 * w1, lip1 + 1.05 - 0.75 * fl, length - 2.0),
@@ -268,7 +268,7 @@ impl Implicit {
                 0.12 * s.chin,
             ),
             nose: Ellipsoid::new(s.nose_centre(), vec3(0.48 * s.nose_w, 0.48 * s.nose_h, 1.0)),
-            tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.5, 0.5, 0.8)),
+            tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.36, 0.36, 0.7)),
             neck: {
                 let squeeze = vec3(1.0 / neck_x, 1.0, 1.0);
                 Cone::new(neck_a * squeeze, (neck_a + neck_dir * 16.0) * squeeze, 0.47 * s.neck_d, 0.56 * s.neck_d)

@@ -180,13 +180,17 @@ impl FitPlan {
         Self { spread, pairs, free, orbit }
     }
 
-    /// Moves the free vertices of `at` (length: the half mesh) from the base by the displacements of the held ones, which
-    /// are in place in `at` already. Leather counts as unmoved relative to its base loop.
-    pub fn start(&self, base: &[Vec3], at: &mut [Vec3], scratch: &mut Vec<f32>) {
+    /// Moves the free vertices of `at` (length: the half mesh) from the base by the displacements of the held ones. Those
+    /// stand in `at` where the features of this head have put them, in `anchors` where those of the base head do.
+    pub fn start(&self, base: &[Vec3], anchors: &[Vec3], at: &mut [Vec3], scratch: &mut Vec<f32>) {
         for (axis, which) in [(0, 0), (1, 1), (2, 1)] {
             let spread = &self.spread[which];
             scratch.clear();
-            scratch.extend(spread.held.iter().map(|&v| at[v as usize][axis] - base[v as usize][axis]));
+            scratch.extend(spread.held.iter().map(|&v| at[v as usize][axis] - anchors[v as usize][axis]));
+            // A guide takes part in the fit: it starts from its own place in the base.
+            for (&v, moved) in spread.held.iter().zip(&*scratch) {
+                at[v as usize][axis] = base[v as usize][axis] + moved;
+            }
             spread.apply(scratch, |v, moved| at[v][axis] = base[v][axis] + moved);
             if axis == 0 {
                 for &v in &self.free {
@@ -229,7 +233,7 @@ impl FitPlan {
         for &(orbit, fold, rim) in &self.orbit {
             let (fold, rim) = (at[fold as usize], at[rim as usize]);
             let out = (fold - rim).normalize_or_zero();
-            let lack = 0.26 * eye_r - (at[orbit as usize] - fold).dot(out);
+            let lack = (0.26 * eye_r).min(0.35 * fold.x) - (at[orbit as usize] - fold).dot(out);
             if lack > 0.0 {
                 at[orbit as usize] += out * lack;
             }

@@ -5,9 +5,19 @@ use crate::rig::implicit::Layer;
 use crate::rig::proportions::Proportions;
 use glam::{Vec3, vec3};
 
-/// Axes of the left eye: lateral, up along the lids, and the direction of gaze.
+/// Axes of the left orbit: lateral, up along the lids, and out of the middle of their slit.
+pub fn orbit_axes(s: &Proportions) -> [Vec3; 3] {
+    axes(s, s.eye_yaw)
+}
+
+/// Axes of the left eyeball at rest. Dogs that look ahead converge a little: a pupil in the middle of the lids looks past
+/// the viewer.
 pub fn eye_axes(s: &Proportions) -> [Vec3; 3] {
-    let (sin, cos) = sin_cos(s.eye_yaw);
+    axes(s, 0.68 * s.eye_yaw)
+}
+
+fn axes(s: &Proportions, yaw: f32) -> [Vec3; 3] {
+    let (sin, cos) = sin_cos(yaw);
     let gaze = vec3(sin, 0.0, cos);
     let (lateral, up) = (vec3(cos, 0.0, -sin), Vec3::Y);
     let (sc, cc) = sin_cos(s.eye_cant);
@@ -17,7 +27,7 @@ pub fn eye_axes(s: &Proportions) -> [Vec3; 3] {
 pub(super) fn place(pins: &mut Pins) {
     let s = pins.shape;
     let (eye, r) = (s.eye(), s.eye_r);
-    let [a, b, g] = eye_axes(s);
+    let [a, b, g] = orbit_axes(s);
     let on_ball = |x: f32, y: f32, radius: f32| {
         let z = (radius * radius - x * x - y * y).max(0.01);
         eye + (a * x + b * y + g * z.sqrt()) * r
@@ -34,7 +44,11 @@ pub(super) fn place(pins: &mut Pins) {
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
         let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
-        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.45);
+        pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
+        // The orbit's loop is free, but starts around this eye.
+        let around = on_ball(x * 1.6, y * 1.9, 1.5);
+        let around = pins.surface.project(vec3(around.x.max(0.3), around.y, around.z), Layer::Whole, 4);
+        pins.set_guide(pins.handles.orbit[k], around);
     }
     pins.set(pins.handles.ep, eye - g * (0.9 * r));
 }

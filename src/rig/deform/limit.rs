@@ -6,10 +6,10 @@
 
 use crate::math::ops;
 use crate::rig::control::{HalfMesh, HalfRings};
-use crate::rig::handles::Handles;
+use crate::rig::handles::{Handles, NONE};
 use glam::Vec3;
 
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 2;
 /// Longest way from the target, head units.
 const CAP: f32 = 0.55;
 
@@ -22,7 +22,7 @@ pub struct LimitPlan {
 impl LimitPlan {
     /// Weights by kind: skin 1, tight loops less, since compensating them everywhere would make them cross.
     pub fn new(half: &HalfMesh, rings: &HalfRings, h: &Handles) -> Self {
-        let mut weight = vec![1.0f32; half.n_half()];
+        let mut weight = vec![0.65f32; half.n_half()];
         let mut put = |vertices: &[u16], w: f32| {
             for &v in vertices {
                 weight[v as usize] = w;
@@ -36,8 +36,13 @@ impl LimitPlan {
         }
         put(&[h.s[10][9]], 0.2);
         put(&h.l[3][10..15], 0.25);
-        put(&h.of, 0.6);
-        put(&h.er, 0.35);
+        put(&h.orbit, 0.2);
+        put(&h.of, 0.2);
+        put(&h.er, 0.2);
+        for i in 6..10 {
+            let row: Vec<u16> = h.s[i][..5].iter().copied().filter(|&v| v != NONE).collect();
+            put(&row, 0.25);
+        }
         put(&h.ei, 0.0);
         put(&[h.ep, h.np], 0.0);
         for ring in &h.a {

@@ -49,11 +49,12 @@ pub(super) fn place(pins: &mut Pins) {
     let undershot = smoothstep(-0.6, 0.1, s.jaw_len);
     for (k, u) in edge.iter().enumerate().take(7) {
         let t = k as f32 / 7.0;
-        let narrow = 0.86 + (0.965 - 0.86) * t;
+        let narrow = 0.86 + (0.935 - 0.86) * t;
         let mut p = vec3(
             (u.x * narrow - 0.1).max(0.0),
-            u.y + (0.22 + 0.1 * s.flew) * (1.0 - t) - 0.13 * t,
-            u.z - 0.35 * (1.0 - t),
+            // Behind the upper lip everywhere, so that nothing is seen between them.
+            u.y + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.16 * t * (1.0 - t),
+            u.z - (0.1 + 0.25 * s.slim()) * (1.0 - t),
         );
         if k == 0 {
             p.x = 0.0;

@@ -18,11 +18,11 @@ use crate::math::ops;
 use glam::Vec3;
 
 pub use fit::{FitPlan, layers};
-pub use lids::eye_axes;
+pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
 
 /// Rounds of the live fit.
-pub const ROUNDS: usize = 8;
+pub const ROUNDS: usize = 5;
 
 pub(crate) fn sin_cos(angle: f32) -> (f32, f32) {
     (ops::sin(angle), ops::cos(angle))
@@ -86,6 +86,14 @@ impl Pins<'_> {
         std::mem::take(self.buffer)
     }
 
+    /// Puts a guide where it is wanted.
+    fn set_guide(&mut self, v: u16, p: Vec3) {
+        self.at[v as usize] = p;
+        if let Some(kinds) = &mut self.record {
+            kinds.guides[v as usize] = true;
+        }
+    }
+
     /// Runs the rays that are left and takes the list back.
     fn keep(&mut self, mut rays: Vec<Ray>) {
         self.trace(&mut rays);
@@ -135,6 +143,8 @@ pub struct DeformPlan {
     fit: FitPlan,
     limit: LimitPlan,
     base: Vec<Vec3>,
+    /// Where the base head's features put the held vertices; elsewhere the base.
+    anchors: Vec<Vec3>,
     midline: Vec<bool>,
 }
 
@@ -163,9 +173,15 @@ impl DeformPlan {
         for &v in handles.a.iter().flatten().chain(&handles.a5) {
             leather[v as usize] = true;
         }
+        let mut anchors = base.clone();
+        for v in 0..n {
+            if kinds.pinned[v] || kinds.guides[v] {
+                anchors[v] = if half.midline[v] { at[v].with_x(0.0) } else { at[v] };
+            }
+        }
         let fit = FitPlan::new(half, &rings, &handles, &kinds.pinned, &kinds.guides, &leather);
         let limit = LimitPlan::new(half, &rings, &handles);
-        Self { handles, rings, fit, limit, base, midline: half.midline.clone() }
+        Self { handles, rings, fit, limit, base, anchors, midline: half.midline.clone() }
     }
 
     /// Control positions of the half (`out`: its length) in the proportions' frame and head units, after `rounds` rounds of
@@ -178,9 +194,9 @@ impl DeformPlan {
         }
         for (&v, &b) in self.handles.a[0].iter().zip(&self.handles.ear_base) {
             // Leather is made last; until then its first ring rides on the base, so that it does not hold the skin back.
-            out[v as usize] += out[b as usize] - self.base[b as usize];
+            out[v as usize] += out[b as usize] - self.anchors[b as usize];
         }
-        self.fit.start(&self.base, out, &mut scratch.held);
+        self.fit.start(&self.base, &self.anchors, out, &mut scratch.held);
         scratch.start.clear();
         scratch.start.extend_from_slice(out);
         scratch.moved.resize(out.len(), Vec3::ZERO);

@@ -10,7 +10,9 @@ pub(super) fn place(pins: &mut Pins) {
     let k = (s.muz_w1 / 5.6).min(1.0);
     for i in 3..10 {
         let (u, l) = (at(pins, h.s[i][9]), at(pins, h.l[i][9]));
-        let back = |p: f32| if i == 3 { -0.35 * p } else { 0.0 };
+        // In front the lining turns back at once: the chin may stand far behind the lips.
+        let turn = [1.0, 0.9, 0.6, 0.3, 0.0, 0.0, 0.0][i - 3];
+        let back = |p: f32| -0.4 * turn * p * (0.5 + 0.5 * k);
         let row = [
             (h.mu[i][1], vec3(u.x + 0.45 * (l.x - u.x), u.y.max(l.y) + 0.16 * k, u.z.min(l.z) + back(0.4))),
             (h.mu[i][2], vec3(0.8 * l.x, l.y.max(u.y) + 0.42 * k, l.z.min(u.z) + back(1.5))),

@@ -5,9 +5,9 @@ use crate::rig::implicit::Layer;
 use glam::{Vec3, vec3};
 
 /// Parts of the way from the nose pad's upper edge to the nasion, rings 1 to 8.
-const MUZZLE: [f32; 8] = [0.12, 0.235, 0.36, 0.49, 0.63, 0.78, 0.90, 1.0];
+const MUZZLE: [f32; 8] = [0.12, 0.235, 0.355, 0.48, 0.61, 0.735, 0.85, 0.965];
 /// Parts of the cranial length behind the nasion, rings 9 to 16.
-const CRANIUM: [f32; 8] = [0.08, 0.172, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
+const CRANIUM: [f32; 8] = [0.07, 0.168, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
 /// Head units along the neck's axis, rings 17 to 19.
 const NECK: [f32; 3] = [2.0, 4.6, 7.6];
 /// Degrees below forward of the chin's fan.
@@ -103,6 +103,10 @@ fn sides(pins: &mut Pins) {
         let t = f * 0.9;
         let mid = 0.5 * (s.bridge1() + s.lip1()) * (1.0 - t) + 0.5 * (s.bridge0() + s.lip0()) * t;
         from_side(&mut rays, h.s[i][6], mid, z, Layer::Upper);
+        // And over the edge between bridge and side.
+        let edge_at = s.head_from_muzzle(vec3(7.0, mid + 7.5, z + 0.3));
+        let inwards = s.head_from_muzzle(vec3(-0.68, -0.73, 0.0));
+        rays.push(Ray::guide(h.s[i][3], edge_at, inwards, Layer::Upper));
     }
     for (v, y, z) in [
         (h.s[11][6], s.zyg_y + 0.2, -0.20 * cl),
