@@ -323,10 +323,10 @@ fn ball_through_lids(world: &World, eye: &Eye, skin: &[Vec3], indices: &[u32]) -
     let near: Vec<[DVec3; 3]> = indices
         .chunks_exact(3)
         .map(|t| [t[0], t[1], t[2]].map(|v| skin[v as usize].as_dvec3()))
-        .filter(|t| (t[0] - centre).length() < 2.2 * r)
+        .filter(|t| (t[0] - centre).length() < 6.0 * r)
         .collect();
     let mut worst = 0.0_f64;
-    for polar in (10..85).step_by(3) {
+    for polar in (10..75).step_by(3) {
         let (sin, cos) = f64::from(polar).to_radians().sin_cos();
         for turn in 0..36 {
             let (s, c) = f64::from(turn * 10).to_radians().sin_cos();
@@ -386,7 +386,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn check(&mut self, setting: &Setting, most_crossings: usize, faults: &mut Faults) {
+    fn check(&mut self, setting: &Setting, faults: &mut Faults) {
         let world = self.world;
         let head = deform(world, &setting.values, ROUNDS);
         let scale = at_200(world, &setting.values);
@@ -410,12 +410,16 @@ impl<'a> Checker<'a> {
             .into_iter()
             .filter(|f| f.1 > 170.0)
             .map(|([a, b], angle)| format!("{}-{} {angle:.0}°", name_at_1(world, a), name_at_1(world, b)))
-            .filter(|f| !may_fold(f) && !f.contains('\''))
+            .filter(|f| !may_fold(f))
             .collect();
         faults.check(folds.is_empty(), || format!("{who}: folded: {}", folds.join(", ")));
-        let crossings = skin.crossings();
-        faults.check(crossings.len() <= most_crossings, || {
-            format!("{who}: {} pairs of triangles cross: {}", crossings.len(), self.where_crossed(&crossings))
+        let (hidden, crossings): (Vec<_>, Vec<_>) =
+            skin.crossings().into_iter().partition(|pair| pair.iter().any(|&f| self.is_hidden(f)));
+        faults.check(crossings.len() <= MOST_CROSSINGS, || {
+            format!("{who}: {} pairs of triangles cross in sight: {}", crossings.len(), self.where_crossed(&crossings))
+        });
+        faults.check(hidden.len() <= MOST_HIDDEN, || {
+            format!("{who}: {} pairs cross in mouth and nostrils: {}", hidden.len(), self.where_crossed(&hidden))
         });
 
         let fine = self.evaluators[1].evaluate(&self.lids, &head.control);
@@ -424,11 +428,21 @@ impl<'a> Checker<'a> {
         let (low, high) = margin_reach(world, &head.eyes[0], fine.positions);
         faults.check(low > 0.95 && high < 1.25, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
         println!(
-            "{who}: smallest area {area:.3} mm², volume {litres:.2} l, {} folds, {} crossings ({}), ball {through:.3}, lids {low:.3} to {high:.3}",
+            "{who}: smallest area {area:.3} mm², volume {litres:.2} l, {} folds, {} crossings ({}), {} hidden, ball {through:.3}, lids {low:.3} to {high:.3}",
             folds.len(),
             crossings.len(),
-            self.where_crossed(&crossings)
+            self.where_crossed(&crossings),
+            hidden.len()
         );
+    }
+
+    /// Whether a face lies in the closed mouth, between the lips or in a nostril, where surfaces touch.
+    fn is_hidden(&self, face: usize) -> bool {
+        let regions = self.world.rig.half().whole_regions();
+        let parent = 3 * self.skin.face_parent()[face] as usize;
+        let corners = &self.world.rig.mesh().indices()[parent..parent + 3];
+        let inside = [Region::Mouth, Region::UpperLip, Region::LowerLip, Region::Nostril];
+        corners.iter().any(|&v| inside.contains(&regions[v as usize]))
     }
 
     /// How many pairs cross between which regions, most first.
@@ -448,8 +462,10 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Pairs of crossing triangles, of 5130 at level 1, that a head may have: lips and lining that lie on each other.
+/// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight.
 const MOST_CROSSINGS: usize = 12;
+/// And where lips, lining or nostrils lie on each other.
+const MOST_HIDDEN: usize = 60;
 
 #[test]
 fn a_breed_is_no_valid_head() {
@@ -457,7 +473,7 @@ fn a_breed_is_no_valid_head() {
     let (mut checker, mut faults) = (Checker::new(&world), Faults::default());
     for breed in &world.breeds {
         let setting = Setting { name: breed.id.clone(), values: breed.values.clone() };
-        checker.check(&setting, MOST_CROSSINGS, &mut faults);
+        checker.check(&setting, &mut faults);
     }
     assert!(faults.0.is_empty(), "{}", faults.0.join("\n"));
 }
@@ -471,7 +487,7 @@ fn a_blend_of_two_breeds_is_no_valid_head() {
             for weight in [0.25, 0.5, 0.75] {
                 let values = Breed::blend(&world.table, &[(a, 1.0 - weight), (b, weight)]).values;
                 let name = format!("{} + {} {weight}", a.id, b.id);
-                checker.check(&Setting { name, values }, MOST_CROSSINGS, &mut faults);
+                checker.check(&Setting { name, values }, &mut faults);
             }
         }
     }
@@ -522,10 +538,11 @@ impl Skin<'_> {
         path.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
-    /// Interior angle of the profile at the stop.
+    /// Angle between forehead and bridge at the stop, on the side of the air.
     fn stop_angle(&self) -> f32 {
-        let (up, forward) = (self.tag("s.11.0") - self.tag("s.8.0"), self.tag("s.5.0") - self.tag("s.8.0"));
-        up.angle_between(forward)
+        let (up, forward) = (self.tag("s.10.0") - self.tag("s.8.0"), self.tag("s.6.0") - self.tag("s.8.0"));
+        let direction = |d: Vec3| d.y.atan2(d.z);
+        (direction(up) - direction(forward)).rem_euclid(std::f32::consts::TAU)
     }
 }
 
@@ -596,6 +613,7 @@ fn a_measure_does_not_grow_with_its_slider() {
             }
             let end = last.map_or(0.0, |l| l.1);
             faults.check(falls.is_empty(), || format!("{} {id}: {}", breed.id, falls.join(", ")));
+            println!("{} {id}: {first:.5} to {end:.5}", breed.id);
             faults.check(end > first, || format!("{} {id}: {first:.5} at the low end, {end:.5} at the high end", breed.id));
         }
     }
@@ -670,7 +688,7 @@ fn a_breed_has_not_its_true_size() {
         faults.check((zygomatic / width - 1.0).abs() < 0.1, || format!("{id}: {zygomatic} mm wide, estimated {width}"));
         // Measured on the skin: lip and skin in front, skin and muscle behind and beside the bone.
         let on_skin = 1e3 * skin.apart("s.3.9", "s.16.0");
-        faults.check((0.9..1.2).contains(&(on_skin / skull)), || format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone"));
+        faults.check((0.95..1.25).contains(&(on_skin / skull)), || format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone"));
         let across = 1e3 * skin.width(&["s.10.", "s.11.", "s.12.", "s.13.", "s.14."]);
         faults.check((0.95..1.4).contains(&(across / width)), || format!("{id}: {across:.0} mm wide on skin, {width} on bone"));
         // Eyeball, computed: D = 20.5 (M / 15)^0.09 mm, 17 to 24.
@@ -685,21 +703,4 @@ fn a_breed_has_not_its_true_size() {
     }
     assert_eq!(SIZES.len(), world.breeds.len(), "a breed without a row here");
     assert!(faults.0.is_empty(), "{}", faults.0.join("\n"));
-}
-
-#[test]
-#[ignore]
-fn diag() {
-    let w = World::embedded();
-    let half = w.rig.half();
-    let pug = w.breed("pug");
-    let v = half.tags.iter().position(|t| t == "s.6.5").unwrap();
-    for r in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 30, 40, 60] {
-        let d = deform(&w, &pug.values, r);
-        println!("pug s.6.5 rounds {r}: {:.2} mm", d.control[v] * 1e3);
-    }
-    for (n, tags) in [("neigh", ["s.5.4", "s.5.5", "s.6.4", "s.6.6", "s.7.5", "s.7.6"])] {
-        let d = deform(&w, &pug.values, 8);
-        for t in tags { let u = half.tags.iter().position(|x| x == t).unwrap(); println!("{n} {t} {:.2}", d.control[u] * 1e3); }
-    }
 }
