@@ -262,19 +262,19 @@ fn a_breed_is_not_what_authoring_gives() {
 #[test]
 fn a_head_near_the_breeds_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.05", seeds(0, 150, 2000).map(|s| world.mixed(s, 0.05)));
+    assert_converged(&world, "jitter 0.05", seeds(0, 100, 2000).map(|s| world.mixed(s, 0.05)));
 }
 
 #[test]
 fn a_random_head_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.15", seeds(10_000, 300, 5000).map(|s| world.mixed(s, 0.15)));
+    assert_converged(&world, "jitter 0.15", seeds(10_000, 200, 5000).map(|s| world.mixed(s, 0.15)));
 }
 
 #[test]
 fn a_wild_head_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.3", seeds(20_000, 100, 2000).map(|s| world.mixed(s, 0.3)));
+    assert_converged(&world, "jitter 0.3", seeds(20_000, 60, 2000).map(|s| world.mixed(s, 0.3)));
 }
 
 #[test]
@@ -323,13 +323,13 @@ fn ball_through_lids(world: &World, eye: &Eye, skin: &[Vec3], indices: &[u32]) -
     let near: Vec<[DVec3; 3]> = indices
         .chunks_exact(3)
         .map(|t| [t[0], t[1], t[2]].map(|v| skin[v as usize].as_dvec3()))
-        .filter(|t| (t[0] - centre).length() < 6.0 * r)
+        .filter(|t| (t[0] - centre).length() < 12.0 * r)
         .collect();
     let mut worst = 0.0_f64;
-    for polar in (10..75).step_by(3) {
+    for polar in (12..62).step_by(4) {
         let (sin, cos) = f64::from(polar).to_radians().sin_cos();
-        for turn in 0..36 {
-            let (s, c) = f64::from(turn * 10).to_radians().sin_cos();
+        for turn in 0..18 {
+            let (s, c) = f64::from(turn * 20).to_radians().sin_cos();
             let (x, y) = (sin * c, sin * s);
             if outside(&margin, [x, y]) > 0.02 {
                 let out = (a * x + b * y + g * cos) * r;
@@ -538,11 +538,12 @@ impl Skin<'_> {
         path.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
-    /// Angle between forehead and bridge at the stop, on the side of the air.
+    /// The sharpest angle of the dorsal profile about the stop, on the side of the air.
     fn stop_angle(&self) -> f32 {
-        let (up, forward) = (self.tag("s.10.0") - self.tag("s.8.0"), self.tag("s.6.0") - self.tag("s.8.0"));
         let direction = |d: Vec3| d.y.atan2(d.z);
-        (direction(up) - direction(forward)).rem_euclid(std::f32::consts::TAU)
+        let at = |i: usize| self.tag(&format!("s.{i}.0"));
+        let angle = |i: usize| direction(at(i + 2) - at(i)) - direction(at(i - 2) - at(i));
+        (5..=10).map(angle).fold(f32::INFINITY, |a, b| a.min(b.rem_euclid(std::f32::consts::TAU)))
     }
 }
 
@@ -579,6 +580,9 @@ const MEASURED: &[(&str, Measure)] = &[
     ("neck_depth_mm", |s| s.apart("s.19.0", "l.19.14")),
 ];
 
+/// Metres or radians by which a measure may fall where something else covers it (0.05 mm, 0.003 degrees).
+const FLAT: f32 = 5e-5;
+
 #[test]
 fn a_measure_does_not_grow_with_its_slider() {
     const STEPS: usize = 16;
@@ -604,7 +608,7 @@ fn a_measure_does_not_grow_with_its_slider() {
                 let measured = measure(&Skin { world: &world, at, head: &head });
                 match last {
                     None => first = measured,
-                    Some((before, was)) if measured < was - 1e-6 => {
+                    Some((before, was)) if measured < was - FLAT => {
                         falls.push(format!("{before:.2}→{value:.2}: {was:.5}→{measured:.5}"));
                     }
                     Some(_) => {}
