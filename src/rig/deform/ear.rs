@@ -65,11 +65,12 @@ struct Section {
 /// Centre line and axes at the rings.
 fn march(e: &EarProportions, root: Vec3) -> [Section; 6] {
     let [out, across, outer] = axes(e);
+    let fold = fold(e);
     let mut p = root;
     let mut ring = 0;
     let section = |p: Vec3, s: f32| {
         let soft = e.fold_softness.max(0.02);
-        let bend = e.fold * smoothstep(e.fold_height - soft, e.fold_height + soft, s);
+        let bend = fold * smoothstep(e.fold_height - soft, e.fold_height + soft, s);
         let (sb, cb) = sin_cos(bend);
         // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears.
         let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, 0.55, s));
@@ -139,7 +140,14 @@ pub(super) fn leather(
 
 /// How much the leather hangs: 0 pricked, 1 folded over.
 fn hang(e: &EarProportions) -> f32 {
-    smoothstep(0.9, 1.5, e.fold)
+    smoothstep(0.9, 1.5, fold(e))
+}
+
+/// The fold with gravity: a leather that is neither stiff enough to stand nor folded over sinks further than its measure
+/// says, as a half-pricked ear does, and does not stick out to the side.
+fn fold(e: &EarProportions) -> f32 {
+    let over = smoothstep(0.0, 1.6, e.fold);
+    e.fold + 3.6 * over * (1.0 - over)
 }
 
 /// Moves whole sections along the skin's gradient until the inner face clears the head; leather that is folded over

@@ -9,6 +9,7 @@ use crate::rig::control::{HalfMesh, HalfRings};
 use crate::rig::handles::{Handles, NONE};
 use crate::rig::implicit::{Implicit, Layer};
 use glam::Vec3;
+use std::sync::Arc;
 
 /// What a round leaves of the displacement from the start. Below 1 a vertex is drawn back to where the start put it as
 /// far as the surface lets it, and the rounds converge geometrically.
@@ -138,6 +139,7 @@ pub struct FitPlan {
     pairs: Vec<(u16, u16, Layer)>,
     free: Vec<u16>,
     orbit: Vec<(u16, u16, u16)>,
+    rings: Arc<HalfRings>,
 }
 
 /// Layer of every half vertex: the lips part the surfaces in front of the mouth's corner.
@@ -160,7 +162,7 @@ impl FitPlan {
     /// `pinned` vertices stay where the features put them; `guides` only shape the start.
     pub fn new(
         half: &HalfMesh,
-        rings: &HalfRings,
+        rings: &Arc<HalfRings>,
         handles: &Handles,
         pinned: &[bool],
         guides: &[bool],
@@ -177,7 +179,7 @@ impl FitPlan {
         }
         let orbit = (0..12).map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();
         let spread = [-1.0, 1.0].map(|sign| Spread::new(rings, &half.midline, &held, sign));
-        Self { spread, pairs, free, orbit }
+        Self { spread, pairs, free, orbit, rings: rings.clone() }
     }
 
     /// Moves the free vertices of `at` (length: the half mesh) from the base by the displacements of the held ones. Those
@@ -207,7 +209,6 @@ impl FitPlan {
     pub fn relax(
         &self,
         surface: &Implicit,
-        rings: &HalfRings,
         start: &[Vec3],
         at: &mut [Vec3],
         moved: &mut [Vec3],
@@ -220,7 +221,7 @@ impl FitPlan {
             }
             for &v in &self.free {
                 let v = v as usize;
-                at[v] = start[v] + (moved[v] + rings.mean(v, moved)) * (0.5 * KEEP);
+                at[v] = start[v] + (moved[v] + self.rings.mean(v, moved)) * (0.5 * KEEP);
             }
             self.keep_orbit(at, eye_r);
             self.project(surface, at);

@@ -53,7 +53,7 @@ pub(super) fn place(pins: &mut Pins) {
         let mut p = vec3(
             (u.x * narrow - 0.1).max(0.0),
             // Behind the upper lip everywhere, so that nothing is seen between them.
-            u.y + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.16 * t * (1.0 - t),
+            u.y + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.34 * t * (1.0 - t),
             u.z - (0.1 + 0.25 * s.slim()) * (1.0 - t),
         );
         if k == 0 {

@@ -16,6 +16,7 @@ use super::implicit::{Implicit, Layer};
 use super::proportions::Proportions;
 use crate::math::ops;
 use glam::Vec3;
+use std::sync::Arc;
 
 pub use fit::{FitPlan, layers};
 pub use lids::{eye_axes, orbit_axes};
@@ -139,7 +140,7 @@ impl Pins<'_> {
 #[derive(Clone, Debug)]
 pub struct DeformPlan {
     handles: Handles,
-    rings: HalfRings,
+    rings: Arc<HalfRings>,
     fit: FitPlan,
     limit: LimitPlan,
     base: Vec<Vec3>,
@@ -161,7 +162,7 @@ impl DeformPlan {
     /// Finds the pinned vertices by placing the base head's features once, and the operators of the fit.
     pub fn new(half: &HalfMesh, handles: Handles, base_shape: &Proportions) -> Self {
         let n = half.n_half();
-        let rings = HalfRings::new(half);
+        let rings = Arc::new(HalfRings::new(half));
         let base: Vec<Vec3> = half.base.iter().map(|&p| Vec3::from(p)).collect();
         let mut kinds = PinKinds { pinned: vec![false; n], guides: vec![false; n] };
         let mut at = vec![Vec3::ZERO; n];
@@ -200,7 +201,7 @@ impl DeformPlan {
         scratch.start.clear();
         scratch.start.extend_from_slice(out);
         scratch.moved.resize(out.len(), Vec3::ZERO);
-        self.fit.relax(&surface, &self.rings, &scratch.start, out, &mut scratch.moved, shape.eye_r, rounds);
+        self.fit.relax(&surface, &scratch.start, out, &mut scratch.moved, shape.eye_r, rounds);
         self.finish(shape, &surface, scratch, out);
     }
 
