@@ -29,7 +29,11 @@ fn entry(table: &ParamTable, spec: &ParamSpec) -> String {
     let _ = writeln!(out, "{}", lines(&spec.help));
     if let Some(follow) = &spec.follows {
         let label = table.get(&follow.id).map_or(follow.id.as_str(), |s| s.label.as_str());
-        let _ = writeln!(out, "While nobody sets it, it follows {} (`{}`), exponent {}.", label, follow.id, follow.exponent);
+        let _ = writeln!(
+            out,
+            "While nobody sets it, it follows {} (`{}`), exponent {}.",
+            label, follow.id, follow.exponent
+        );
     }
     let _ = writeln!(out, "Source: {}.\n", spec.source.trim_end_matches('.'));
     out
@@ -70,5 +74,8 @@ fn manual_of_parameters_is_stale() {
     let committed = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
     let line = made.lines().zip(committed.lines()).position(|(a, b)| a != b);
     let at = line.map_or("its end".to_owned(), |l| format!("line {}", l + 1));
-    assert!(made == committed, "docs/parameters.md is not what rigs/anatomy.ron says, from {at}: run UPDATE_DOCS=1 cargo test --test docs");
+    assert!(
+        made == committed,
+        "docs/parameters.md is not what rigs/anatomy.ron says, from {at}: run UPDATE_DOCS=1 cargo test --test docs"
+    );
 }

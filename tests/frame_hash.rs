@@ -89,7 +89,11 @@ fn bits_depend_on_the_number_of_threads() {
                 for ((stage, expected), (_, found)) in
                     stages(alone).into_iter().zip(stages(hashes(&mut pipeline, breed)))
                 {
-                    assert_eq!(found, expected, "{} at level {level} with {threads} threads: {stage} differs", breed.id);
+                    assert_eq!(
+                        found, expected,
+                        "{} at level {level} with {threads} threads: {stage} differs",
+                        breed.id
+                    );
                 }
             }
         }

@@ -106,7 +106,8 @@ fn valences_are_irregular_where_nothing_asks_for_it() {
         };
     }
     // Ends of grids in the median plane, and in the closed mouth.
-    let may_be_low = ["l.3.11", "l.3.14", "l.8.14", "ml.3.2", "ml.3.3", "ml.4.3", "mu.3.2", "mu.3.3", "mu.4.3", "s.0.9"];
+    let may_be_low =
+        ["l.3.11", "l.3.14", "l.8.14", "ml.3.2", "ml.3.3", "ml.4.3", "mu.3.2", "mu.3.3", "mu.4.3", "s.0.9"];
     assert!(low.iter().all(|t| may_be_low.contains(t)), "valence 4 or less at {low:?}");
     assert!(inner.iter().all(|&v| mesh.valence(v) >= 4), "valence below 4");
     // Poles, the corner of the mouth, and where nose pad, philtrum and lips meet.
@@ -124,7 +125,12 @@ fn a_named_loop_is_open_or_jumps() {
     for (name, l) in &half.loops {
         assert_eq!(l.iter().collect::<BTreeSet<_>>().len(), l.len(), "{name} visits a vertex twice");
         for pair in l.windows(2) {
-            assert!(joined(pair[0], pair[1]), "{name}: {} and {}", half.tags[pair[0] as usize], half.tags[pair[1] as usize]);
+            assert!(
+                joined(pair[0], pair[1]),
+                "{name}: {} and {}",
+                half.tags[pair[0] as usize],
+                half.tags[pair[1] as usize]
+            );
         }
         let [first, last] = ends(l);
         let closed = l.len() > 2 && joined(last, first);
@@ -138,8 +144,18 @@ fn a_named_loop_is_open_or_jumps() {
     let [upper, lower] = ["upper_lip", "lower_lip"].map(|n| ends(&half.loops[n]));
     assert_eq!(upper[1], lower[1], "the lips end in one corner");
     assert!(half.midline[upper[0] as usize] && half.midline[lower[0] as usize]);
-    let wanted =
-        ["ear_base", "lid_fold", "lid_inner", "lid_outer", "lower_lip", "neck", "nose_outline", "nostril", "orbit", "upper_lip"];
+    let wanted = [
+        "ear_base",
+        "lid_fold",
+        "lid_inner",
+        "lid_outer",
+        "lower_lip",
+        "neck",
+        "nose_outline",
+        "nostril",
+        "orbit",
+        "upper_lip",
+    ];
     for name in wanted {
         assert!(half.loops.contains_key(name), "no loop {name}");
     }
@@ -280,7 +296,8 @@ fn a_wild_head_is_not_what_authoring_gives() {
 #[test]
 fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
-    let some = if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
+    let some =
+        if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
     assert_converged(&world, "ends", some.into_iter().flat_map(|b| world.extremes(b)));
 }
 
@@ -591,8 +608,11 @@ fn a_measure_does_not_grow_with_its_slider() {
     let mut evaluator = Evaluator::new(&fine);
     let mut faults = Faults::default();
     let mut head = Deformed::default();
-    let some: Vec<&Breed> =
-        if sweeps_all() { world.breeds.iter().collect() } else { ["labrador", "pug", "borzoi"].map(|id| world.breed(id)).into() };
+    let some: Vec<&Breed> = if sweeps_all() {
+        world.breeds.iter().collect()
+    } else {
+        ["labrador", "pug", "borzoi"].map(|id| world.breed(id)).into()
+    };
     for breed in some {
         for &(id, measure) in MEASURED {
             let row = world.row(id);
@@ -618,7 +638,9 @@ fn a_measure_does_not_grow_with_its_slider() {
             let end = last.map_or(0.0, |l| l.1);
             faults.check(falls.is_empty(), || format!("{} {id}: {}", breed.id, falls.join(", ")));
             println!("{} {id}: {first:.5} to {end:.5}", breed.id);
-            faults.check(end > first, || format!("{} {id}: {first:.5} at the low end, {end:.5} at the high end", breed.id));
+            faults.check(end > first, || {
+                format!("{} {id}: {first:.5} at the low end, {end:.5} at the high end", breed.id)
+            });
         }
     }
     assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
@@ -638,7 +660,8 @@ fn a_small_step_of_a_slider_makes_a_jump() {
             let own = (breed.values[row] - spec.min_si()) / (spec.max_si() - spec.min_si());
             for place in places.iter().copied().chain([own.clamp(0.0005, 0.9995)]) {
                 let mut values = breed.values.clone();
-                let set = |values: &mut Vec<f32>, t: f32| values[row] = spec.min_si() + (spec.max_si() - spec.min_si()) * t;
+                let set =
+                    |values: &mut Vec<f32>, t: f32| values[row] = spec.min_si() + (spec.max_si() - spec.min_si()) * t;
                 set(&mut values, place - 0.0005);
                 world.rig.deform(&values, ROUNDS, &mut before);
                 set(&mut values, place + 0.0005);
@@ -646,7 +669,15 @@ fn a_small_step_of_a_slider_makes_a_jump() {
                 let scale = at_200(&world, &values);
                 let moved = before.control.iter().zip(&after.control).map(|(a, b)| scale * f64::from(a.distance(*b)));
                 let (v, d) = moved.enumerate().fold((0, 0.0), |w, m| if m.1 > w.1 { m } else { w });
-                all.push((d, format!("{d:.3} mm at {}: {} {} at {place:.3} of its range", name(world.rig.half(), v), breed.id, spec.id)));
+                all.push((
+                    d,
+                    format!(
+                        "{d:.3} mm at {}: {} {} at {place:.3} of its range",
+                        name(world.rig.half(), v),
+                        breed.id,
+                        spec.id
+                    ),
+                ));
             }
         }
     }
@@ -692,14 +723,22 @@ fn a_breed_has_not_its_true_size() {
         faults.check((zygomatic / width - 1.0).abs() < 0.1, || format!("{id}: {zygomatic} mm wide, estimated {width}"));
         // Measured on the skin: lip and skin in front, skin and muscle behind and beside the bone.
         let on_skin = 1e3 * skin.apart("s.3.9", "s.16.0");
-        faults.check((0.95..1.25).contains(&(on_skin / skull)), || format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone"));
+        faults.check((0.95..1.25).contains(&(on_skin / skull)), || {
+            format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone")
+        });
         let across = 1e3 * skin.width(&["s.10.", "s.11.", "s.12.", "s.13.", "s.14."]);
-        faults.check((0.95..1.4).contains(&(across / width)), || format!("{id}: {across:.0} mm wide on skin, {width} on bone"));
+        faults.check((0.95..1.4).contains(&(across / width)), || {
+            format!("{id}: {across:.0} mm wide on skin, {width} on bone")
+        });
         // Eyeball, computed: D = 20.5 (M / 15)^0.09 mm, 17 to 24.
         let globe = (20.5 * (mass / 15.0).powf(0.09)).clamp(17.0, 24.0);
         let drawn = 2e3 * skin.head.eyes[0].radius;
-        faults.check((drawn / globe - 1.0).abs() < 0.03, || format!("{id}: eyeball {drawn:.1} mm, by the law {globe:.1}"));
-        println!("{id}: skull {skull:.0} (estimated {length}), on skin {on_skin:.0}; width {zygomatic:.0} (estimated {width}), on skin {across:.0}; eyeball {drawn:.1} (law {globe:.1})");
+        faults.check((drawn / globe - 1.0).abs() < 0.03, || {
+            format!("{id}: eyeball {drawn:.1} mm, by the law {globe:.1}")
+        });
+        println!(
+            "{id}: skull {skull:.0} (estimated {length}), on skin {on_skin:.0}; width {zygomatic:.0} (estimated {width}), on skin {across:.0}; eyeball {drawn:.1} (law {globe:.1})"
+        );
     }
     for &(id, length) in MEASURED_SKULLS {
         let skull = 1e3 * world.skull_length(&world.breed(id).values);

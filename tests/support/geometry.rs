@@ -59,10 +59,8 @@ impl Shape<'_> {
 
     /// Pairs of triangles that cross each other and share no vertex.
     pub fn crossings(&self) -> Vec<[usize; 2]> {
-        let boxes: Vec<(DVec3, DVec3)> = (0..self.n_faces())
-            .map(|f| self.triangle(f))
-            .map(|[a, b, c]| (a.min(b).min(c), a.max(b).max(c)))
-            .collect();
+        let boxes: Vec<(DVec3, DVec3)> =
+            (0..self.n_faces()).map(|f| self.triangle(f)).map(|[a, b, c]| (a.min(b).min(c), a.max(b).max(c))).collect();
         let mut order: Vec<usize> = (0..self.n_faces()).collect();
         order.sort_by(|&a, &b| boxes[a].0.z.total_cmp(&boxes[b].0.z));
         let mut found = Vec::new();
