@@ -79,6 +79,10 @@ fn profile(degrees: f32) -> f32 {
 /// Positions and normals (`positions`, `normals`: [`N_VERTICES`]).
 pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
     let [a, b, g] = eye.axes;
+    let sides: [Vec3; SEGMENTS] = std::array::from_fn(|j| {
+        let turn = core::f32::consts::TAU * j as f32 / SEGMENTS as f32;
+        a * ops::cos(turn) + b * ops::sin(turn)
+    });
     for (i, &degrees) in RINGS.iter().enumerate() {
         let angle = degrees.to_radians();
         let (sin, cos) = (ops::sin(angle), ops::cos(angle));
@@ -86,9 +90,7 @@ pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
         let h = 0.5;
         let slope = (profile(degrees + h) - profile((degrees - h).max(0.0))) / (2.0 * h).to_radians();
         let r = profile(degrees);
-        for j in 0..SEGMENTS {
-            let turn = core::f32::consts::TAU * j as f32 / SEGMENTS as f32;
-            let side = a * ops::cos(turn) + b * ops::sin(turn);
+        for (j, &side) in sides.iter().enumerate() {
             let out = side * sin + g * cos;
             let along = side * cos - g * sin;
             positions[i * SEGMENTS + j] = eye.centre + out * (eye.radius * r);

@@ -192,9 +192,8 @@ impl Pipeline {
     fn shape(&mut self, values: &[f32]) {
         self.rig.deform(values, deform::ROUNDS, &mut self.deformed);
         let [skin, cap, left, right] = &mut self.parts;
-        let surface = self.evaluator.evaluate(&self.plan, &self.deformed.control);
-        skin.positions.copy_from_slice(surface.positions);
-        skin.normals.copy_from_slice(surface.normals);
+        let control = &self.deformed.control;
+        self.evaluator.evaluate_into(&self.plan, control, &mut skin.positions, &mut skin.normals);
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
         place_cap(&self.plan, &skin.positions, cap);

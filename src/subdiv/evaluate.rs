@@ -35,6 +35,7 @@ pub struct Evaluator {
     fine: Vec<Lane>,
     /// The last level.
     finest: Vec<Lane>,
+    /// What [`Evaluator::evaluate`] lends out; empty until it is called.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     /// None with one thread.
@@ -76,11 +77,25 @@ impl Evaluator {
     /// # Panics
     /// Where `control` has another length than the plan has control vertices.
     pub fn evaluate<'a>(&'a mut self, plan: &'a Plan, control: &[Vec3]) -> Surface<'a> {
+        let (mut positions, mut normals) = (std::mem::take(&mut self.positions), std::mem::take(&mut self.normals));
+        positions.resize(plan.n_vertices(), Vec3::ZERO);
+        normals.resize(plan.n_vertices(), Vec3::ZERO);
+        self.evaluate_into(plan, control, &mut positions, &mut normals);
+        (self.positions, self.normals) = (positions, normals);
+        Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
+    }
+
+    /// As [`evaluate`](Self::evaluate), into the caller's buffers: one place for each vertex of the plan's last level.
+    ///
+    /// # Panics
+    /// Where a length is another.
+    pub fn evaluate_into(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3]) {
+        let n = plan.n_vertices();
+        assert!(positions.len() == n && normals.len() == n, "one value for each vertex of the last level");
         self.fit(plan);
         self.refine(plan, control);
-        unpad(&self.finest, &mut self.positions);
-        self.find_normals(plan);
-        Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
+        unpad(&self.finest, positions);
+        self.find_normals(plan, normals);
     }
 
     /// The same stencils on any three channels (a colour, a flow): `control` has one value for each control vertex,
@@ -97,7 +112,7 @@ impl Evaluator {
 
     /// Makes the buffers fit; does nothing where they do.
     fn fit(&mut self, plan: &Plan) {
-        if self.fingerprint == plan.fingerprint() && self.positions.len() == plan.n_vertices() {
+        if self.fingerprint == plan.fingerprint() && self.finest.len() == plan.n_vertices() {
             return;
         }
         self.fingerprint = plan.fingerprint();
@@ -105,8 +120,6 @@ impl Evaluator {
         self.coarse.resize(n_between, Lane::default());
         self.fine.resize(n_between, Lane::default());
         self.finest.resize(plan.n_vertices(), Lane::default());
-        self.positions.resize(plan.n_vertices(), Vec3::ZERO);
-        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
     }
 
     /// From control values to those of the last level, in `finest`.
@@ -125,8 +138,8 @@ impl Evaluator {
         apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest);
     }
 
-    fn find_normals(&mut self, plan: &Plan) {
-        let Evaluator { finest, normals, pool, .. } = self;
+    fn find_normals(&self, plan: &Plan, normals: &mut [Vec3]) {
+        let Evaluator { finest, pool, .. } = self;
         match pool {
             Some(pool) if normals.len() > CHUNK => pool.install(|| {
                 normals

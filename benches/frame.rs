@@ -1,0 +1,106 @@
+//! A frame of the head at level 4 on one core, beside a plain copy of what it writes.
+//!
+//! What counts is the ratio to the copy within one run; milliseconds belong to one machine and day. The goal is 4 ms from
+//! changed values to filled buffers.
+
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use glam::Vec3;
+use londra::anatomy::{Breed, ParamTable, library};
+use londra::frame::{Frame, Pipeline};
+use londra::rig::{Deformed, Rig, deform::ROUNDS};
+use londra::subdiv::Evaluator;
+
+const LEVEL: u32 = 4;
+
+/// What changes with the values: positions, normals, flow of all parts.
+fn copy(frame: &Frame, out: &mut [Vec3]) {
+    let mut rest = out;
+    for part in &frame.parts {
+        for values in [part.positions, part.normals, part.flow] {
+            let (to, after) = rest.split_at_mut(values.len());
+            to.copy_from_slice(values);
+            rest = after;
+        }
+    }
+}
+
+/// Shortest time of one call, of 301: what else the machine does can only add to it.
+fn shortest(mut call: impl FnMut()) -> Duration {
+    let time = |_| {
+        let start = Instant::now();
+        call();
+        start.elapsed()
+    };
+    (0..301).map(time).min().unwrap_or_default()
+}
+
+fn benches(c: &mut Criterion) {
+    let table = Arc::new(ParamTable::embedded().expect("the embedded table is tested"));
+    let rig = Arc::new(Rig::embedded(&table).expect("the embedded rig is tested"));
+    let breed = |id: &str| library::breed(&table, id).expect("an embedded breed");
+    let two: [Breed; 2] = [breed("labrador"), breed("pug")];
+    let same_look = Breed { look: two[0].look.clone(), ..two[1].clone() };
+    let mut pipeline = Pipeline::new(rig.clone(), table.clone(), LEVEL).expect("a level that is allowed");
+    let plan = pipeline.skin_plan().clone();
+    let mut evaluator = Evaluator::new(&plan);
+    let mut deformed = Deformed::default();
+    let mut attribute = vec![Vec3::ZERO; plan.n_vertices()];
+
+    let frame = pipeline.update(&two[0]);
+    let mut copied = vec![Vec3::ZERO; frame.parts.iter().map(|p| 3 * p.topology.n_vertices).sum()];
+    eprintln!("level {LEVEL}: {} skin vertices, {} triangles in all", plan.n_vertices(), frame.n_triangles());
+
+    let mut turn = 0;
+    let mut values = || {
+        turn += 1;
+        [&two[0], &same_look][turn % 2]
+    };
+    let mut group = c.benchmark_group("frame");
+    group.bench_function("deform", |b| b.iter(|| rig.deform(&values().values, ROUNDS, black_box(&mut deformed))));
+    group.bench_function("evaluate_positions_and_normals", |b| {
+        b.iter(|| {
+            black_box(evaluator.evaluate(&plan, black_box(&deformed.control)));
+        })
+    });
+    group.bench_function("evaluate_one_attribute", |b| {
+        b.iter(|| evaluator.evaluate_attribute(&plan, black_box(&deformed.control), black_box(&mut attribute)))
+    });
+    group.bench_function("update_with_other_values", |b| {
+        b.iter(|| {
+            black_box(pipeline.update(values()));
+        })
+    });
+    group.bench_function("update_with_other_values_and_look", |b| {
+        let mut turn = 0;
+        b.iter(|| {
+            turn += 1;
+            black_box(pipeline.update(&two[turn % 2]));
+        })
+    });
+    group.bench_function("copy_of_the_output", |b| b.iter(|| copy(&pipeline.frame(), black_box(&mut copied))));
+    group.finish();
+
+    let whole = shortest(|| {
+        black_box(pipeline.update(values()));
+    });
+    let shape = shortest(|| rig.deform(&values().values, ROUNDS, black_box(&mut deformed)));
+    let refining = shortest(|| {
+        black_box(evaluator.evaluate(&plan, black_box(&deformed.control)));
+    });
+    let copying = shortest(|| copy(&pipeline.frame(), black_box(&mut copied)));
+    eprintln!(
+        "frame at level {LEVEL}: {:.2} ms, of it deform {:.2}, positions and normals {:.2}; {:.1} times a copy of its output ({:.2} ms)",
+        1e3 * whole.as_secs_f64(),
+        1e3 * shape.as_secs_f64(),
+        1e3 * refining.as_secs_f64(),
+        whole.as_secs_f64() / copying.as_secs_f64(),
+        1e3 * copying.as_secs_f64()
+    );
+}
+
+criterion_group!(frame, benches);
+criterion_main!(frame);

@@ -1,0 +1,749 @@
+//! What the head promises: baked as committed, symmetric, a function of its measures, valid between all breeds, sliders
+//! that do what they say, true sizes.
+//!
+//! Lengths are metres scaled to a skull of 200 mm where "mm at 200" stands. Large sweeps take a fixed sample;
+//! `LONDRA_SWEEP=all` takes all. `--nocapture` prints what was measured.
+#![cfg(feature = "head")]
+
+#[path = "support/geometry.rs"]
+mod geometry;
+#[path = "support/settings.rs"]
+mod settings;
+
+use geometry::{Shape, hit, outside};
+use glam::{DVec3, Vec3};
+use londra::anatomy::{Breed, Region};
+use londra::rig::deform::ROUNDS;
+use londra::rig::{Deformed, Eye, HalfMesh};
+use londra::subdiv::{Evaluator, Plan, Scheme};
+use settings::{Setting, World, sweeps_all};
+use std::collections::{BTreeMap, BTreeSet};
+
+fn plan(world: &World, level: u32) -> Plan {
+    Plan::build(world.rig.mesh(), Scheme::Sqrt3, level).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn deform(world: &World, values: &[f32], rounds: usize) -> Deformed {
+    let mut out = Deformed::default();
+    world.rig.deform(values, rounds, &mut out);
+    out
+}
+
+fn bits(control: &[Vec3]) -> Vec<[u32; 3]> {
+    control.iter().map(|p| p.to_array().map(f32::to_bits)).collect()
+}
+
+/// Millimetres at a skull of 200 mm, of one metre of this setting.
+fn at_200(world: &World, values: &[f32]) -> f64 {
+    200.0 / f64::from(world.skull_length(values))
+}
+
+/// A vertex of the whole control mesh by name; a prime marks the right side.
+fn name(half: &HalfMesh, vertex: usize) -> String {
+    match half.tags.get(vertex) {
+        Some(tag) => tag.clone(),
+        None => {
+            let left = half.mirror().iter().position(|&m| m as usize == vertex);
+            format!("{}'", left.map_or("?", |v| &half.tags[v]))
+        }
+    }
+}
+
+/// A vertex of the level-1 skin by name: of the control mesh, or by the control face in whose middle it stands.
+fn name_at_1(world: &World, vertex: u32) -> String {
+    let (half, mesh) = (world.rig.half(), world.rig.mesh());
+    match (vertex as usize).checked_sub(mesh.n_vertices()) {
+        None => name(half, vertex as usize),
+        Some(face) => {
+            let corners: Vec<String> =
+                mesh.indices()[3 * face..3 * face + 3].iter().map(|&v| name(half, v as usize)).collect();
+            format!("({})", corners.join(" "))
+        }
+    }
+}
+
+// ---- bake and topology ----
+
+#[test]
+fn baked_assets_are_stale() {
+    for baked in londra::author::bake::all().unwrap_or_else(|e| panic!("{e}")) {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(baked.path);
+        let committed = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+        let line = baked.text.lines().zip(committed.lines()).position(|(a, b)| a != b);
+        let at = line.map_or("its end".to_owned(), |l| format!("line {}", l + 1));
+        assert!(committed == baked.text, "{} differs from what is baked, from {at}: run `londra bake`", baked.path);
+    }
+}
+
+#[test]
+fn control_mesh_is_no_disk_with_one_neck() {
+    let world = World::embedded();
+    let mesh = world.rig.mesh();
+    mesh.validate().unwrap_or_else(|e| panic!("{e}"));
+    let loops: Vec<usize> = mesh.boundary_loops().iter().map(Vec::len).collect();
+    assert_eq!(loops, [28], "one boundary, at the neck");
+    assert_eq!(mesh.euler_characteristic(), 1, "a disk");
+    assert!(mesh.n_vertices() <= 1200, "{} control vertices", mesh.n_vertices());
+    assert_eq!(plan(&world, 4).boundary_loops().len(), 1);
+}
+
+#[test]
+fn valences_are_irregular_where_nothing_asks_for_it() {
+    let world = World::embedded();
+    let (mesh, half) = (world.rig.mesh(), world.rig.half());
+    let inner: Vec<_> = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).collect();
+    let regular = inner.iter().filter(|&&v| mesh.valence(v) == 6).count();
+    let share = regular as f64 / inner.len() as f64;
+    println!("{} inner vertices, {:.1} % of valence 6", inner.len(), 100.0 * share);
+    assert!(share >= 0.8, "{share}");
+    let mut low = BTreeSet::new();
+    let mut high = BTreeSet::new();
+    for &v in inner.iter().filter(|v| v.index() < half.n_half()) {
+        match mesh.valence(v) {
+            0..=4 => low.insert(half.tags[v.index()].as_str()),
+            9.. => high.insert(half.tags[v.index()].as_str()),
+            _ => false,
+        };
+    }
+    // Ends of grids in the median plane, and in the closed mouth.
+    let may_be_low =
+        ["l.3.11", "l.3.14", "l.8.14", "ml.3.2", "ml.3.3", "ml.4.3", "mu.3.2", "mu.3.3", "mu.4.3", "s.0.9"];
+    assert!(low.iter().all(|t| may_be_low.contains(t)), "valence 4 or less at {low:?}");
+    assert!(inner.iter().all(|&v| mesh.valence(v) >= 4), "valence below 4");
+    // Poles, the corner of the mouth, and where nose pad, philtrum and lips meet.
+    let may_be_high = ["ep", "n.9", "np", "s.3.9", "s.10.9"];
+    assert!(high.iter().all(|t| may_be_high.contains(t)), "valence 9 or more at {high:?}");
+}
+
+#[test]
+fn a_named_loop_is_open_or_jumps() {
+    let world = World::embedded();
+    let (mesh, half) = (world.rig.mesh(), world.rig.half());
+    let joined = |a: u16, b: u16| mesh.ring(londra::mesh::VertexId(a.into())).any(|v| v.0 == u32::from(b));
+    let ends = |l: &[u16]| [l[0], l[l.len() - 1]];
+    let mut half_open = Vec::new();
+    for (name, l) in &half.loops {
+        assert_eq!(l.iter().collect::<BTreeSet<_>>().len(), l.len(), "{name} visits a vertex twice");
+        for pair in l.windows(2) {
+            assert!(
+                joined(pair[0], pair[1]),
+                "{name}: {} and {}",
+                half.tags[pair[0] as usize],
+                half.tags[pair[1] as usize]
+            );
+        }
+        let [first, last] = ends(l);
+        let closed = l.len() > 2 && joined(last, first);
+        let closed_by_mirror = half.midline[first as usize] && half.midline[last as usize];
+        if !closed && !closed_by_mirror {
+            half_open.push(name.as_str());
+        }
+    }
+    // The lips close together: both run from the median plane to the corner of the mouth.
+    assert_eq!(half_open, ["lower_lip", "upper_lip"]);
+    let [upper, lower] = ["upper_lip", "lower_lip"].map(|n| ends(&half.loops[n]));
+    assert_eq!(upper[1], lower[1], "the lips end in one corner");
+    assert!(half.midline[upper[0] as usize] && half.midline[lower[0] as usize]);
+    let wanted = [
+        "ear_base",
+        "lid_fold",
+        "lid_inner",
+        "lid_outer",
+        "lower_lip",
+        "neck",
+        "nose_outline",
+        "nostril",
+        "orbit",
+        "upper_lip",
+    ];
+    for name in wanted {
+        assert!(half.loops.contains_key(name), "no loop {name}");
+    }
+}
+
+#[test]
+fn a_landmark_has_no_name_or_another_ones_place() {
+    let world = World::embedded();
+    let half = world.rig.half();
+    let unique = |what: &str, all: Vec<String>| {
+        let n = all.len();
+        assert!(all.iter().all(|t| !t.is_empty()), "an empty {what}");
+        assert_eq!(all.into_iter().collect::<BTreeSet<_>>().len(), n, "a {what} twice");
+    };
+    unique("landmark id", half.landmarks.iter().map(|l| l.0.clone()).collect());
+    unique("landmark name", half.landmarks.iter().map(|l| l.1.clone()).collect());
+    unique("landmark vertex", half.landmarks.iter().map(|l| l.2.to_string()).collect());
+    unique("vertex name", half.tags.clone());
+    let missing: Vec<_> = Region::ALL.into_iter().filter(|r| !half.regions.contains(r)).map(Region::name).collect();
+    assert!(missing.is_empty(), "regions without a vertex: {missing:?}");
+}
+
+// ---- symmetry ----
+
+#[test]
+fn left_and_right_differ() {
+    let world = World::embedded();
+    let half = world.rig.half();
+    let mirror = half.mirror();
+    let fine = plan(&world, 3);
+    let mut evaluator = Evaluator::new(&fine);
+    let mut settings: Vec<Setting> = (0..4).map(|seed| world.mixed(seed, 0.15)).collect();
+    settings.extend(world.breeds.iter().map(|b| Setting { name: b.id.clone(), values: b.values.clone() }));
+    for setting in settings {
+        let head = deform(&world, &setting.values, ROUNDS);
+        for (v, &m) in mirror.iter().enumerate() {
+            let (p, q) = (head.control[v], head.control[m as usize]);
+            if half.midline[v] {
+                assert_eq!(p.x, 0.0, "{} on the midline: {}", half.tags[v], setting.name);
+            }
+            let image = [-q.x, q.y, q.z].map(f32::to_bits);
+            // The image of zero is minus zero.
+            let same = p.x == -q.x && [p.y, p.z].map(f32::to_bits) == image[1..];
+            assert!(same, "{}: {p} and {q}: {}", half.tags[v], setting.name);
+        }
+        let [left, right] = head.eyes;
+        assert_eq!(left.centre * Vec3::new(-1.0, 1.0, 1.0), right.centre);
+        let refined = evaluator.evaluate(&fine, &head.control).positions;
+        let worst = worst_asymmetry(refined);
+        assert!(worst <= 1e-6, "refined vertices {worst:.1e} of the size off their image: {}", setting.name);
+    }
+}
+
+/// Largest distance of a vertex's mirror image from the nearest vertex, as a part of the size; infinite beyond 1e-5.
+fn worst_asymmetry(positions: &[Vec3]) -> f64 {
+    let size = positions.iter().map(|p| p.length()).fold(0.0, f32::max);
+    let window = 1e-5 * size;
+    let mut by_z: Vec<Vec3> = positions.to_vec();
+    by_z.sort_by(|a, b| a.z.total_cmp(&b.z));
+    let distance = |p: &Vec3| {
+        let image = Vec3::new(-p.x, p.y, p.z);
+        let from = by_z.partition_point(|q| q.z < p.z - window);
+        let near = by_z[from..].iter().take_while(|q| q.z <= p.z + window).map(|q| q.distance(image));
+        let nearest = near.fold(f32::INFINITY, f32::min);
+        if nearest <= window { f64::from(nearest / size) } else { f64::INFINITY }
+    };
+    positions.iter().map(distance).fold(0.0, f64::max)
+}
+
+// ---- a function of its measures ----
+
+struct Gap {
+    rms: f64,
+    worst: f64,
+    vertex: usize,
+}
+
+/// Live head against the method run to convergence, mm at 200.
+fn gap(world: &World, values: &[f32], live: &mut Deformed, converged: &mut Deformed) -> Gap {
+    world.rig.deform(values, ROUNDS, live);
+    world.rig.deform(values, 60, converged);
+    let scale = at_200(world, values);
+    let apart: Vec<f64> =
+        live.control.iter().zip(&converged.control).map(|(a, b)| scale * a.as_dvec3().distance(b.as_dvec3())).collect();
+    let rms = (apart.iter().map(|d| d * d).sum::<f64>() / apart.len() as f64).sqrt();
+    let (vertex, worst) = apart.into_iter().enumerate().fold((0, 0.0), |w, d| if d.1 > w.1 { d } else { w });
+    Gap { rms, worst, vertex }
+}
+
+/// Compares all settings; states the worst; fails naming every setting above half a millimetre.
+fn assert_converged(world: &World, what: &str, settings: impl Iterator<Item = Setting>) {
+    let (mut live, mut converged) = (Deformed::default(), Deformed::default());
+    let mut all: Vec<(Gap, String)> =
+        settings.map(|s| (gap(world, &s.values, &mut live, &mut converged), s.name)).collect();
+    all.sort_by(|a, b| b.0.rms.total_cmp(&a.0.rms));
+    let half = world.rig.half();
+    let line = |(gap, setting): &(Gap, String)| {
+        format!("rms {:.3} mm, worst {:.2} mm at {}: {setting}", gap.rms, gap.worst, name(half, gap.vertex))
+    };
+    let median = all[all.len() / 2].0.rms;
+    println!("{what}: {} settings, median rms {median:.3} mm; {}", all.len(), line(&all[0]));
+    if let Some(worst) = all.iter().max_by(|a, b| a.0.worst.total_cmp(&b.0.worst)) {
+        println!("{what}: worst vertex: {}", line(worst));
+    }
+    let failed: Vec<String> = all.iter().take_while(|(gap, _)| gap.rms > 0.5).map(line).collect();
+    assert!(failed.is_empty(), "{what}: {} of {} settings:\n{}", failed.len(), all.len(), failed.join("\n"));
+}
+
+fn seeds(first: u64, sample: u64, all: u64) -> impl Iterator<Item = u64> {
+    first..first + if sweeps_all() { all } else { sample }
+}
+
+#[test]
+fn a_breed_is_not_what_authoring_gives() {
+    let world = World::embedded();
+    let own = world.breeds.iter().map(|b| Setting { name: b.id.clone(), values: b.values.clone() });
+    assert_converged(&world, "breeds", own);
+}
+
+#[test]
+fn a_head_near_the_breeds_is_not_what_authoring_gives() {
+    let world = World::embedded();
+    assert_converged(&world, "jitter 0.05", seeds(0, 100, 2000).map(|s| world.mixed(s, 0.05)));
+}
+
+#[test]
+fn a_random_head_is_not_what_authoring_gives() {
+    let world = World::embedded();
+    assert_converged(&world, "jitter 0.15", seeds(10_000, 200, 5000).map(|s| world.mixed(s, 0.15)));
+}
+
+#[test]
+fn a_wild_head_is_not_what_authoring_gives() {
+    let world = World::embedded();
+    assert_converged(&world, "jitter 0.3", seeds(20_000, 60, 2000).map(|s| world.mixed(s, 0.3)));
+}
+
+#[test]
+fn a_slider_at_its_end_is_not_what_authoring_gives() {
+    let world = World::embedded();
+    let some =
+        if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
+    assert_converged(&world, "ends", some.into_iter().flat_map(|b| world.extremes(b)));
+}
+
+#[test]
+fn the_way_to_a_setting_shows_in_the_head() {
+    let world = World::embedded();
+    let (from, to) = (world.breed("chihuahua"), world.breed("borzoi"));
+    let rows: Vec<usize> = (0..world.table.specs.len()).collect();
+    let mut ends = Vec::new();
+    for backwards in [false, true] {
+        let mut breed = from.clone();
+        let mut buffers = Deformed::default();
+        let order: Vec<usize> = if backwards { rows.iter().rev().copied().collect() } else { rows.clone() };
+        for row in order {
+            breed.set_value(&world.table, row, to.values[row]);
+            world.rig.deform(&breed.values, ROUNDS, &mut buffers);
+        }
+        ends.push((bits(&buffers.control), buffers.eyes));
+    }
+    let fresh = deform(&world, &to.values, ROUNDS);
+    assert!(ends[0] == ends[1], "two orders of the same slider moves end in other bits");
+    assert!(ends[0] == (bits(&fresh.control), fresh.eyes), "used buffers give other bits than fresh ones");
+    let mut twice = fresh.clone();
+    world.rig.deform(&to.values, ROUNDS, &mut twice);
+    assert!(bits(&twice.control) == bits(&fresh.control), "the same buffers a second time give other bits");
+}
+
+// ---- between all breeds ----
+
+/// How far the ball stands out of the lids anywhere outside their outer margin, as a part of its radius (0: nowhere).
+fn ball_through_lids(world: &World, eye: &Eye, skin: &[Vec3], indices: &[u32]) -> f64 {
+    let centre = eye.centre.as_dvec3();
+    let r = f64::from(eye.radius);
+    let [a, b, g] = eye.axes.map(Vec3::as_dvec3);
+    let margin: Vec<[f64; 2]> = world.rig.half().loops["lid_outer"]
+        .iter()
+        .map(|&v| skin[v as usize].as_dvec3() - centre)
+        .map(|p| [p.dot(a) / r, p.dot(b) / r])
+        .collect();
+    let near: Vec<[DVec3; 3]> = indices
+        .chunks_exact(3)
+        .map(|t| [t[0], t[1], t[2]].map(|v| skin[v as usize].as_dvec3()))
+        .filter(|t| (t[0] - centre).length() < 12.0 * r)
+        .collect();
+    let mut worst = 0.0_f64;
+    for polar in (12..62).step_by(4) {
+        let (sin, cos) = f64::from(polar).to_radians().sin_cos();
+        for turn in 0..18 {
+            let (s, c) = f64::from(turn * 20).to_radians().sin_cos();
+            let (x, y) = (sin * c, sin * s);
+            if outside(&margin, [x, y]) > 0.02 {
+                let out = (a * x + b * y + g * cos) * r;
+                let skin_at = near.iter().filter_map(|&t| hit(centre, out, t)).fold(0.0, f64::max);
+                worst = worst.max(1.0 - skin_at);
+            }
+        }
+    }
+    worst
+}
+
+/// Distance of the lids' outer margin from the ball's centre, lowest and highest, as parts of the radius.
+fn margin_reach(world: &World, eye: &Eye, skin: &[Vec3]) -> (f32, f32) {
+    let margin = world.rig.half().loops["lid_outer"].iter();
+    let reach = margin.map(|&v| skin[v as usize].distance(eye.centre) / eye.radius);
+    reach.fold((f32::INFINITY, 0.0), |(lo, hi), r| (lo.min(r), hi.max(r)))
+}
+
+/// Edges that may fold flat: the corner of the closed mouth, the lining's end, and leather.
+fn may_fold(name: &str) -> bool {
+    let has = |start: &str| name.split([' ', '-', '(', ')']).any(|v| v.starts_with(start));
+    ["mu.", "ml.", "a0.", "a1.", "a2.", "a3.", "a4.", "a5.", "s.10.9"].into_iter().any(has)
+}
+
+#[derive(Default)]
+struct Faults(Vec<String>);
+
+impl Faults {
+    fn check(&mut self, holds: bool, what: impl FnOnce() -> String) {
+        if !holds {
+            self.0.push(what());
+        }
+    }
+}
+
+struct Checker<'a> {
+    world: &'a World,
+    skin: Plan,
+    lids: Plan,
+    evaluators: [Evaluator; 2],
+    neck: Vec<Vec<u32>>,
+}
+
+impl<'a> Checker<'a> {
+    fn new(world: &'a World) -> Self {
+        let (skin, lids) = (plan(world, 1), plan(world, 2));
+        let neck = world.rig.mesh().boundary_loops();
+        Self {
+            evaluators: [Evaluator::new(&skin), Evaluator::new(&lids)],
+            neck: neck.iter().map(|l| l.iter().map(|v| v.0).collect()).collect(),
+            world,
+            skin,
+            lids,
+        }
+    }
+
+    fn check(&mut self, setting: &Setting, faults: &mut Faults) {
+        let world = self.world;
+        let head = deform(world, &setting.values, ROUNDS);
+        let scale = at_200(world, &setting.values);
+        let who = &setting.name;
+        faults.check(head.control.iter().all(|p| p.is_finite()), || format!("{who}: a position is not finite"));
+        let control = Shape { positions: &head.control, indices: world.rig.mesh().indices() };
+        let (face, area) = control
+            .areas()
+            .map(|a| a * scale * scale)
+            .enumerate()
+            .fold((0, f64::INFINITY), |m, a| if a.1 < m.1 { a } else { m });
+        let corner = |k: usize| name(world.rig.half(), world.rig.mesh().indices()[3 * face + k] as usize);
+        faults.check(area > 0.02, || format!("{who}: {area:.4} mm² at {} {} {}", corner(0), corner(1), corner(2)));
+        let litres = control.volume(&self.neck) * scale.powi(3) * 1e-6;
+        faults.check(litres > 0.3, || format!("{who}: volume {litres:.2} l"));
+
+        let refined = self.evaluators[0].evaluate(&self.skin, &head.control);
+        let skin = Shape { positions: refined.positions, indices: refined.indices };
+        let folds: Vec<String> = skin
+            .folds()
+            .into_iter()
+            .filter(|f| f.1 > 170.0)
+            .map(|([a, b], angle)| format!("{}-{} {angle:.0}°", name_at_1(world, a), name_at_1(world, b)))
+            .filter(|f| !may_fold(f))
+            .collect();
+        faults.check(folds.is_empty(), || format!("{who}: folded: {}", folds.join(", ")));
+        let (hidden, crossings): (Vec<_>, Vec<_>) =
+            skin.crossings().into_iter().partition(|pair| pair.iter().any(|&f| self.is_hidden(f)));
+        faults.check(crossings.len() <= MOST_CROSSINGS, || {
+            format!("{who}: {} pairs of triangles cross in sight: {}", crossings.len(), self.where_crossed(&crossings))
+        });
+        faults.check(hidden.len() <= MOST_HIDDEN, || {
+            format!("{who}: {} pairs cross in mouth and nostrils: {}", hidden.len(), self.where_crossed(&hidden))
+        });
+
+        let fine = self.evaluators[1].evaluate(&self.lids, &head.control);
+        let through = ball_through_lids(world, &head.eyes[0], fine.positions, fine.indices);
+        faults.check(through < 0.05, || format!("{who}: the eyeball stands {through:.2} radii out of its lids"));
+        let (low, high) = margin_reach(world, &head.eyes[0], fine.positions);
+        faults.check(low > 0.95 && high < 1.25, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
+        println!(
+            "{who}: smallest area {area:.3} mm², volume {litres:.2} l, {} folds, {} crossings ({}), {} hidden, ball {through:.3}, lids {low:.3} to {high:.3}",
+            folds.len(),
+            crossings.len(),
+            self.where_crossed(&crossings),
+            hidden.len()
+        );
+    }
+
+    /// Whether a face lies in the closed mouth, between the lips or in a nostril, where surfaces touch.
+    fn is_hidden(&self, face: usize) -> bool {
+        let regions = self.world.rig.half().whole_regions();
+        let parent = 3 * self.skin.face_parent()[face] as usize;
+        let corners = &self.world.rig.mesh().indices()[parent..parent + 3];
+        let inside = [Region::Mouth, Region::UpperLip, Region::LowerLip, Region::Nostril];
+        corners.iter().any(|&v| inside.contains(&regions[v as usize]))
+    }
+
+    /// How many pairs cross between which regions, most first.
+    fn where_crossed(&self, pairs: &[[usize; 2]]) -> String {
+        let regions = self.world.rig.half().whole_regions();
+        let control = self.world.rig.mesh().indices();
+        let region = |face: usize| regions[control[3 * self.skin.face_parent()[face] as usize] as usize].name();
+        let mut count: BTreeMap<[&str; 2], usize> = BTreeMap::new();
+        for &[f, g] in pairs {
+            let (a, b) = (region(f), region(g));
+            *count.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+        let mut count: Vec<_> = count.into_iter().collect();
+        count.sort_by_key(|c| std::cmp::Reverse(c.1));
+        let words: Vec<String> = count.iter().take(5).map(|([a, b], n)| format!("{n} {a}/{b}")).collect();
+        words.join(", ")
+    }
+}
+
+/// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight.
+const MOST_CROSSINGS: usize = 12;
+/// And where lips, lining or nostrils lie on each other.
+const MOST_HIDDEN: usize = 60;
+
+#[test]
+fn a_breed_is_no_valid_head() {
+    let world = World::embedded();
+    let (mut checker, mut faults) = (Checker::new(&world), Faults::default());
+    for breed in &world.breeds {
+        let setting = Setting { name: breed.id.clone(), values: breed.values.clone() };
+        checker.check(&setting, &mut faults);
+    }
+    assert!(faults.0.is_empty(), "{}", faults.0.join("\n"));
+}
+
+#[test]
+fn a_blend_of_two_breeds_is_no_valid_head() {
+    let world = World::embedded();
+    let (mut checker, mut faults) = (Checker::new(&world), Faults::default());
+    for (i, a) in world.breeds.iter().enumerate() {
+        for b in &world.breeds[..i] {
+            for weight in [0.25, 0.5, 0.75] {
+                let values = Breed::blend(&world.table, &[(a, 1.0 - weight), (b, weight)]).values;
+                let name = format!("{} + {} {weight}", a.id, b.id);
+                checker.check(&Setting { name, values }, &mut faults);
+            }
+        }
+    }
+    assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
+}
+
+// ---- sliders ----
+
+/// The level-3 skin, asked for distances. Control vertices keep their numbers on every level.
+struct Skin<'a> {
+    world: &'a World,
+    at: &'a [Vec3],
+    head: &'a Deformed,
+}
+
+impl Skin<'_> {
+    fn tag(&self, tag: &str) -> Vec3 {
+        let v = self.world.rig.half().tags.iter().position(|t| t == tag);
+        self.at[v.unwrap_or_else(|| panic!("no vertex {tag}"))]
+    }
+
+    fn apart(&self, a: &str, b: &str) -> f32 {
+        self.tag(a).distance(self.tag(b))
+    }
+
+    /// Twice the largest x of the vertices whose name begins so.
+    fn width(&self, starts: &[&str]) -> f32 {
+        let tags = self.world.rig.half().tags.iter().enumerate();
+        let these = tags.filter(|(_, t)| starts.iter().any(|s| t.starts_with(s)));
+        2.0 * these.map(|(v, _)| self.at[v].x).fold(0.0, f32::max)
+    }
+
+    fn middle(&self, tags: impl Iterator<Item = String>) -> Vec3 {
+        let all: Vec<Vec3> = tags.map(|t| self.tag(&t)).collect();
+        all.iter().sum::<Vec3>() / all.len() as f32
+    }
+
+    fn loop_width(&self, name: &str) -> f32 {
+        2.0 * self.world.rig.half().loops[name].iter().map(|&v| self.at[v as usize].x).fold(0.0, f32::max)
+    }
+
+    /// Along the middles of the ear's rings, from the base to the tip.
+    fn ear_length(&self) -> f32 {
+        let base = &self.world.rig.half().loops["ear_base"];
+        let mut path = vec![base.iter().map(|&v| self.at[v as usize]).sum::<Vec3>() / base.len() as f32];
+        path.extend((0..5).map(|r| self.middle((0..12).map(|k| format!("a{r}.{k}")))));
+        path.push(self.middle((0..8).map(|k| format!("a5.{k}"))));
+        path.windows(2).map(|w| w[0].distance(w[1])).sum()
+    }
+
+    /// The sharpest angle of the dorsal profile about the stop, on the side of the air.
+    fn stop_angle(&self) -> f32 {
+        let direction = |d: Vec3| d.y.atan2(d.z);
+        let at = |i: usize| self.tag(&format!("s.{i}.0"));
+        let angle = |i: usize| direction(at(i + 2) - at(i)) - direction(at(i - 2) - at(i));
+        (5..=10).map(angle).fold(f32::INFINITY, |a, b| a.min(b.rem_euclid(std::f32::consts::TAU)))
+    }
+}
+
+type Measure = fn(&Skin) -> f32;
+
+/// Sliders whose own quantity can be measured on the skin.
+const MEASURED: &[(&str, Measure)] = &[
+    ("cranial_length_mm", |s| s.apart("s.8.0", "s.16.0")),
+    ("cranial_width_mm", |s| s.width(&["s.12.", "s.13."])),
+    ("temporalis_mm", |s| s.width(&["s.12.3", "s.12.4", "s.13."])),
+    ("cranial_height_mm", |s| s.tag("s.13.0").y),
+    ("zygomatic_width_mm", |s| s.width(&["s.10.", "s.11.", "s.12.", "s.13.", "s.14.", "l.11.", "l.12.", "l.13."])),
+    ("facial_length_mm", |s| s.apart("s.8.0", "s.3.9")),
+    ("stop_angle_deg", |s| s.stop_angle()),
+    ("muzzle_width_root_mm", |s| s.width(&["s.6.", "s.7."])),
+    ("muzzle_width_tip_mm", |s| s.width(&["s.3.", "s.4."])),
+    ("muzzle_depth_root_mm", |s| s.tag("s.6.0").y - s.tag("s.8.9").y),
+    ("muzzle_depth_tip_mm", |s| s.tag("s.2.0").y - s.tag("s.4.9").y),
+    ("nose_width_mm", |s| s.loop_width("nose_outline")),
+    ("nose_height_mm", |s| s.apart("s.0.0", "s.0.9")),
+    ("nose_projection_mm", |s| s.tag("nm.0").z - s.tag("s.3.9").z),
+    ("flews_mm", |s| s.tag("s.6.0").y - s.tag("s.6.9").y),
+    ("jaw_depth_mm", |s| s.tag("s.6.9").y - s.tag("l.7.14").y),
+    ("jaw_offset_mm", |s| s.tag("l.3.11").z - s.tag("s.3.9").z),
+    ("eye_spacing_mm", |s| s.tag("er.0").x + s.tag("er.6").x),
+    ("eyeball_diameter_mm", |s| s.apart("er.0", "er.6")),
+    ("lid_opening", |s| s.apart("er.3", "er.9")),
+    ("lid_width", |s| s.apart("er.0", "er.6")),
+    ("ear_length_mm", |s| s.ear_length()),
+    ("ear_width_mm", |s| s.apart("a2.0", "a2.6")),
+    ("ear_base_mm", |s| s.apart("s.13.2", "s.16.5")),
+    ("ear_set_back_mm", |s| -s.middle((0..12).map(|k| format!("a0.{k}"))).z),
+    ("neck_width_mm", |s| s.loop_width("neck")),
+    ("neck_depth_mm", |s| s.apart("s.19.0", "l.19.14")),
+];
+
+/// Metres or radians by which a measure may fall where something else covers it (0.05 mm, 0.003 degrees).
+const FLAT: f32 = 5e-5;
+
+#[test]
+fn a_measure_does_not_grow_with_its_slider() {
+    const STEPS: usize = 16;
+    let world = World::embedded();
+    let fine = plan(&world, 3);
+    let mut evaluator = Evaluator::new(&fine);
+    let mut faults = Faults::default();
+    let mut head = Deformed::default();
+    let some: Vec<&Breed> = if sweeps_all() {
+        world.breeds.iter().collect()
+    } else {
+        ["labrador", "pug", "borzoi"].map(|id| world.breed(id)).into()
+    };
+    for breed in some {
+        for &(id, measure) in MEASURED {
+            let row = world.row(id);
+            let spec = &world.table.specs[row];
+            let mut last: Option<(f64, f32)> = None;
+            let (mut first, mut falls) = (0.0, Vec::new());
+            for step in 0..=STEPS {
+                let value = spec.min + (spec.max - spec.min) * step as f64 / STEPS as f64;
+                let mut values = breed.values.clone();
+                values[row] = spec.to_si(value);
+                world.rig.deform(&values, ROUNDS, &mut head);
+                let at = evaluator.evaluate(&fine, &head.control).positions;
+                let measured = measure(&Skin { world: &world, at, head: &head });
+                match last {
+                    None => first = measured,
+                    Some((before, was)) if measured < was - FLAT => {
+                        falls.push(format!("{before:.2}→{value:.2}: {was:.5}→{measured:.5}"));
+                    }
+                    Some(_) => {}
+                }
+                last = Some((value, measured));
+            }
+            let end = last.map_or(0.0, |l| l.1);
+            faults.check(falls.is_empty(), || format!("{} {id}: {}", breed.id, falls.join(", ")));
+            println!("{} {id}: {first:.5} to {end:.5}", breed.id);
+            faults.check(end > first, || {
+                format!("{} {id}: {first:.5} at the low end, {end:.5} at the high end", breed.id)
+            });
+        }
+    }
+    assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
+}
+
+/// A thousandth of a slider's range moves no control vertex farther, mm at 200.
+const LONGEST_STEP: f64 = 2.0;
+
+#[test]
+fn a_small_step_of_a_slider_makes_a_jump() {
+    let world = World::embedded();
+    let (mut before, mut after) = (Deformed::default(), Deformed::default());
+    let mut all = Vec::new();
+    let places: &[f32] = if sweeps_all() { &[0.1, 0.3, 0.5, 0.7, 0.9] } else { &[0.3, 0.7] };
+    for breed in &world.breeds {
+        for (row, spec) in world.table.specs.iter().enumerate() {
+            let own = (breed.values[row] - spec.min_si()) / (spec.max_si() - spec.min_si());
+            for place in places.iter().copied().chain([own.clamp(0.0005, 0.9995)]) {
+                let mut values = breed.values.clone();
+                let set =
+                    |values: &mut Vec<f32>, t: f32| values[row] = spec.min_si() + (spec.max_si() - spec.min_si()) * t;
+                set(&mut values, place - 0.0005);
+                world.rig.deform(&values, ROUNDS, &mut before);
+                set(&mut values, place + 0.0005);
+                world.rig.deform(&values, ROUNDS, &mut after);
+                let scale = at_200(&world, &values);
+                let moved = before.control.iter().zip(&after.control).map(|(a, b)| scale * f64::from(a.distance(*b)));
+                let (v, d) = moved.enumerate().fold((0, 0.0), |w, m| if m.1 > w.1 { m } else { w });
+                all.push((
+                    d,
+                    format!(
+                        "{d:.3} mm at {}: {} {} at {place:.3} of its range",
+                        name(world.rig.half(), v),
+                        breed.id,
+                        spec.id
+                    ),
+                ));
+            }
+        }
+    }
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    println!("{} steps, median {:.3} mm, worst {}", all.len(), all[all.len() / 2].0, all[0].1);
+    let jumps: Vec<&str> = all.iter().take_while(|a| a.0 > LONGEST_STEP).map(|a| a.1.as_str()).collect();
+    assert!(jumps.is_empty(), "{} of {} steps:\n{}", jumps.len(), all.len(), jumps.join("\n"));
+}
+
+// ---- true sizes ----
+
+/// Breed; skull length and zygomatic width in mm, estimated (from breed standards and class averages); typical mass in kg.
+const SIZES: &[(&str, f32, f32, f32)] = &[
+    ("beagle", 144.0, 79.0, 11.0),
+    ("borzoi", 254.0, 102.0, 38.0),
+    ("bulldog", 131.0, 122.0, 24.0),
+    ("chihuahua", 79.0, 54.0, 2.3),
+    ("dachshund", 151.0, 70.0, 9.0),
+    ("german_shepherd", 212.0, 106.0, 33.0),
+    ("labrador", 198.0, 107.0, 31.0),
+    ("pug", 93.0, 88.0, 8.0),
+];
+
+/// Skull lengths that somebody has measured, mm, single specimens: they bound the estimates, breed means they are not.
+const MEASURED_SKULLS: &[(&str, f32)] = &[("bulldog", 170.0), ("chihuahua", 125.0), ("german_shepherd", 249.0)];
+
+#[test]
+fn a_breed_has_not_its_true_size() {
+    let world = World::embedded();
+    let fine = plan(&world, 3);
+    let mut evaluator = Evaluator::new(&fine);
+    let mut faults = Faults::default();
+    for &(id, length, width, mass) in SIZES {
+        let breed = world.breed(id);
+        let value = |id: &str| 1e3 * breed.values[world.row(id)];
+        let head = deform(&world, &breed.values, ROUNDS);
+        let at = evaluator.evaluate(&fine, &head.control).positions;
+        let skin = Skin { world: &world, at, head: &head };
+        // Computed from the rig's measures on bone.
+        let skull = 1e3 * world.skull_length(&breed.values);
+        faults.check((skull / length - 1.0).abs() < 0.1, || format!("{id}: skull {skull:.0} mm, estimated {length}"));
+        let zygomatic = value("zygomatic_width_mm");
+        faults.check((zygomatic / width - 1.0).abs() < 0.1, || format!("{id}: {zygomatic} mm wide, estimated {width}"));
+        // Measured on the skin: lip and skin in front, skin and muscle behind and beside the bone.
+        let on_skin = 1e3 * skin.apart("s.3.9", "s.16.0");
+        faults.check((0.95..1.25).contains(&(on_skin / skull)), || {
+            format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone")
+        });
+        let across = 1e3 * skin.width(&["s.10.", "s.11.", "s.12.", "s.13.", "s.14."]);
+        faults.check((0.95..1.4).contains(&(across / width)), || {
+            format!("{id}: {across:.0} mm wide on skin, {width} on bone")
+        });
+        // Eyeball, computed: D = 20.5 (M / 15)^0.09 mm, 17 to 24.
+        let globe = (20.5 * (mass / 15.0).powf(0.09)).clamp(17.0, 24.0);
+        let drawn = 2e3 * skin.head.eyes[0].radius;
+        faults.check((drawn / globe - 1.0).abs() < 0.03, || {
+            format!("{id}: eyeball {drawn:.1} mm, by the law {globe:.1}")
+        });
+        println!(
+            "{id}: skull {skull:.0} (estimated {length}), on skin {on_skin:.0}; width {zygomatic:.0} (estimated {width}), on skin {across:.0}; eyeball {drawn:.1} (law {globe:.1})"
+        );
+    }
+    for &(id, length) in MEASURED_SKULLS {
+        let skull = 1e3 * world.skull_length(&world.breed(id).values);
+        faults.check(skull < 1.02 * length, || format!("{id}: skull {skull:.0} mm, the largest measured {length}"));
+    }
+    assert_eq!(SIZES.len(), world.breeds.len(), "a breed without a row here");
+    assert!(faults.0.is_empty(), "{}", faults.0.join("\n"));
+}
