@@ -35,7 +35,7 @@ pub struct Evaluator {
     fine: Vec<Lane>,
     /// The last level.
     finest: Vec<Lane>,
-    /// What [`Evaluator::evaluate`] lends out; empty until it is called.
+    /// What [`Evaluator::evaluate`] lends out.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     /// None with one thread.
@@ -77,9 +77,8 @@ impl Evaluator {
     /// # Panics
     /// Where `control` has another length than the plan has control vertices.
     pub fn evaluate<'a>(&'a mut self, plan: &'a Plan, control: &[Vec3]) -> Surface<'a> {
+        self.fit(plan);
         let (mut positions, mut normals) = (std::mem::take(&mut self.positions), std::mem::take(&mut self.normals));
-        positions.resize(plan.n_vertices(), Vec3::ZERO);
-        normals.resize(plan.n_vertices(), Vec3::ZERO);
         self.evaluate_into(plan, control, &mut positions, &mut normals);
         (self.positions, self.normals) = (positions, normals);
         Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
@@ -120,6 +119,8 @@ impl Evaluator {
         self.coarse.resize(n_between, Lane::default());
         self.fine.resize(n_between, Lane::default());
         self.finest.resize(plan.n_vertices(), Lane::default());
+        self.positions.resize(plan.n_vertices(), Vec3::ZERO);
+        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
     }
 
     /// From control values to those of the last level, in `finest`.

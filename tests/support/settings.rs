@@ -16,6 +16,7 @@ pub struct World {
 }
 
 /// A setting of the sliders, and words that say which.
+#[allow(dead_code)] // not every test file reads both
 pub struct Setting {
     /// How to get it again.
     pub name: String,
