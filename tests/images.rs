@@ -168,7 +168,7 @@ fn the_threshold_sees_a_small_change_of_shape_colour_and_light() {
     let index = heads.table.index_of("facial_length_mm").unwrap();
     longer.set_value(&heads.table, index, breed.values[index] + 0.004);
     let mut paler = breed.clone();
-    paler.look.base = paler.look.base * 1.15;
+    paler.look.base *= 1.15;
     let seen = |picture: &Picture| {
         let d = difference(&before, picture);
         d.mean > ALLOWED.mean || d.percentile_99 > ALLOWED.percentile_99

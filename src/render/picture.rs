@@ -41,7 +41,7 @@ impl Picture {
                 for channel in 0..3 {
                     let sum: u32 =
                         block.iter().map(|&i| u32::from(self.rgba[i + channel]) * u32::from(self.rgba[i + 3])).sum();
-                    rgba.push(if alpha == 0 { 0 } else { ((sum + alpha / 2) / alpha) as u8 });
+                    rgba.push((sum + alpha / 2).checked_div(alpha).unwrap_or(0) as u8);
                 }
                 rgba.push(((alpha + 2) / 4) as u8);
             }
