@@ -4,7 +4,7 @@
 //! surface; then relaxation on the surface. Later heads start from this one, so it decides how evenly triangles lie.
 
 use crate::math::ops;
-use crate::rig::deform::{DeformPlan, Scratch, layers};
+use crate::rig::deform::{DeformPlan, Scratch, hollow, layers};
 use crate::rig::handles::NONE;
 use crate::rig::implicit::{Implicit, Layer};
 use crate::rig::{HalfMesh, HalfRings, Handles, Proportions};
@@ -200,6 +200,9 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
         plan.fit().keep_orbit(&mut at, shape.eye_r);
         plan.fit().project(&surface, &mut at);
         plan.fit().project(&surface, &mut at);
+        for v in hollow(handles) {
+            at[v as usize] = surface.project(at[v as usize], Layer::Upper, 2);
+        }
     }
     for v in (0..at.len()).filter(|&v| !free.contains(&(v as u16))) {
         at[v] = pinned[v];

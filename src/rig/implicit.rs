@@ -137,7 +137,7 @@ pub struct Implicit {
     muzzle: TaperedBox,
     whisker_pad: Ellipsoid,
     flew: Cone,
-    roll: Option<[Cone; 2]>,
+    roll: [Cone; 2],
     jaw: TaperedBox,
     chin: (Ellipsoid, f32),
     nose: Ellipsoid,
@@ -160,14 +160,15 @@ impl Implicit {
         let (neck_a, neck_dir) = s.neck_axis();
         let neck_x = s.neck_w / s.neck_d;
         let pad = 0.35 + 0.65 * s.slim();
-        let ropes = |scale: f32| {
-            let inset = 0.5 - 0.45 * s.wrinkle;
+        let roll = {
+            // Without a roll the ropes are so thin that they touch nothing: the slider starts without a jump.
+            let inset = 1.3 * (1.0 - s.wrinkle) * (1.0 - s.wrinkle);
             let at = [
                 vec3(0.0, bridge0 + 0.25, 0.32 * length),
                 vec3(0.50 * w0, bridge0 - 0.15, 0.30 * length),
                 vec3(w0, bridge0 - 1.9, 0.20 * length),
             ];
-            let r = [0.62, 0.62, 0.45].map(|r| (r - inset) * scale);
+            let r = [0.57, 0.57, 0.40].map(|r| r - inset);
             [Cone::new(at[0], at[1], r[0], r[1]), Cone::new(at[1], at[2], r[1], r[2])]
         };
         Self {
@@ -250,7 +251,7 @@ impl Implicit {
                 0.95 * lt,
                 0.72 * lt,
             ),
-            roll: (s.wrinkle > 0.0).then(|| ropes(1.0)),
+            roll,
             jaw: TaperedBox {
                 z: (-0.40 * cl, jz - 0.2),
                 half_width: (w0 * s.jaw_w + 0.35, 0.70 * w1 * s.jaw_w),
@@ -302,9 +303,7 @@ impl Implicit {
             d = smin(d, self.muzzle.eval(m), 2.4);
             d = smin(d, self.whisker_pad.eval(m), 1.4);
             d = smin(d, self.flew.eval(m), 1.6);
-            if let Some([a, b]) = &self.roll {
-                d = smin(d, smin(a.eval(m), b.eval(m), 0.6), 1.0);
-            }
+            d = smin(d, smin(self.roll[0].eval(m), self.roll[1].eval(m), 0.6), 1.0);
         }
         if layer != Layer::Upper {
             d = smin(d, self.jaw.eval(m), 2.0);

@@ -178,7 +178,7 @@ fn drape(e: &EarProportions, surface: &Implicit, sections: &mut [Section; 6]) {
         }
         for r in 0..6 {
             let (before, after) = (moves[r.max(1) - 1], moves[(r + 1).min(5)]);
-            sections[r].centre += moves[r] * 0.6 + (before + after) * 0.2;
+            sections[r].centre += (moves[r] * 0.6 + (before + after) * 0.2).clamp_length_max(0.7);
         }
     }
 }

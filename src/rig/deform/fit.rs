@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// What a round leaves of the displacement from the start. Below 1 a vertex is drawn back to where the start put it as
 /// far as the surface lets it, and the rounds converge geometrically.
-const KEEP: f32 = 0.75;
+const KEEP: f32 = 0.68;
 
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
 #[derive(Clone, Debug)]
@@ -142,6 +142,12 @@ pub struct FitPlan {
     rings: Arc<HalfRings>,
 }
 
+/// Vertices in the hollow between bridge, brow and cheek, where the nearest point of the surface jumps from one side to
+/// the other: there the smooth start stands.
+pub fn hollow(handles: &Handles) -> Vec<u16> {
+    [&handles.s[7][1..4], &handles.s[8][1..4], &handles.s[7][5..6]].concat()
+}
+
 /// Layer of every half vertex: the lips part the surfaces in front of the mouth's corner.
 pub fn layers(handles: &Handles, n: usize) -> Vec<Layer> {
     let mut layers = vec![Layer::Whole; n];
@@ -172,9 +178,11 @@ impl FitPlan {
         let held: Vec<bool> = (0..n).map(|v| pinned[v] || guides[v] || leather[v]).collect();
         let free: Vec<u16> = (0..n).filter(|&v| !pinned[v] && !leather[v]).map(|v| v as u16).collect();
         let layer = layers(handles, n);
+        let hollow = hollow(handles);
         let mut pairs = Vec::new();
         for kind in [Layer::Upper, Layer::Lower, Layer::Whole] {
-            let of_kind: Vec<u16> = free.iter().copied().filter(|&v| layer[v as usize] == kind).collect();
+            let on_surface = |v: &u16| layer[*v as usize] == kind && !hollow.contains(v);
+            let of_kind: Vec<u16> = free.iter().copied().filter(on_surface).collect();
             pairs.extend(of_kind.chunks(2).map(|c| (c[0], c[c.len() - 1], kind)));
         }
         let orbit = (0..12).map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();

@@ -46,8 +46,8 @@ pub(super) fn place(pins: &mut Pins) {
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free, but starts around this eye.
-        let around = on_ball(x * 1.6, y * 1.9, 1.5);
-        let around = pins.surface.project(vec3(around.x.max(0.3), around.y, around.z), Layer::Whole, 4);
+        let around = on_ball(x * 1.45, y * 1.75, 1.5);
+        let around = pins.surface.project(vec3(around.x.max(0.3 * eye.x), around.y, around.z), Layer::Whole, 4);
         pins.set_guide(pins.handles.orbit[k], around);
     }
     pins.set(pins.handles.ep, eye - g * (0.9 * r));

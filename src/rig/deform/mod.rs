@@ -18,12 +18,12 @@ use crate::math::ops;
 use glam::Vec3;
 use std::sync::Arc;
 
-pub use fit::{FitPlan, layers};
+pub use fit::{FitPlan, hollow, layers};
 pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
 
 /// Rounds of the live fit.
-pub const ROUNDS: usize = 5;
+pub const ROUNDS: usize = 10;
 
 pub(crate) fn sin_cos(angle: f32) -> (f32, f32) {
     (ops::sin(angle), ops::cos(angle))

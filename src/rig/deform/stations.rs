@@ -9,7 +9,7 @@ const MUZZLE: [f32; 8] = [0.12, 0.235, 0.355, 0.48, 0.61, 0.735, 0.85, 0.965];
 /// Parts of the cranial length behind the nasion, rings 9 to 16.
 const CRANIUM: [f32; 8] = [0.07, 0.168, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
 /// Head units along the neck's axis, rings 17 to 19.
-const NECK: [f32; 3] = [2.0, 4.6, 7.6];
+const NECK: [f32; 3] = [3.6, 5.6, 7.8];
 /// Degrees below forward of the chin's fan.
 const CHIN_FAN: [f32; 4] = [14.0, 36.0, 56.0, 74.0];
 
@@ -119,8 +119,16 @@ fn sides(pins: &mut Pins) {
         let p = vec3(16.0, y, z);
         rays.push(Ray::guide(v, p, Vec3::NEG_X, Layer::Whole));
     }
+    // The hollow between muzzle and cheek, where the surface turns twice, and the throat's sides.
+    let hollow = s.head_from_muzzle(vec3(16.0, 0.45 * s.bridge0() + 0.55 * s.lip0(), 0.16 * edge));
+    rays.push(Ray::guide(h.s[7][5], hollow, Vec3::NEG_X, Layer::Upper));
+    for i in [12, 14, 16] {
+        let below = pins.at[h.l[i][14] as usize];
+        let from = below + vec3(9.0, -4.0, 0.0);
+        rays.push(Ray::guide(h.l[i][12], from, vec3(-0.78, 0.62, 0.0), Layer::Whole));
+    }
     for i in [8, 10] {
-        let z = pins.at[h.l[i][14] as usize].z + 0.6;
+        let z = s.muzzle_from_head(pins.at[h.l[i][14] as usize]).z + 0.6;
         from_side(&mut rays, h.l[i][11], s.lip0() - 0.6 * s.jaw_d, z, Layer::Lower);
     }
     // Round the neck: its end is cut flat, the ring before it only guided.
@@ -132,6 +140,11 @@ fn sides(pins: &mut Pins) {
         let reach = s.neck_d.max(s.neck_w);
         let v = if j < 10 { h.s[19][j] } else { h.l[19][j] };
         rays.push(Ray::new(v, start + dir * NECK[2] + out * reach, -out, Layer::Whole));
+        if j < 9 {
+            // Behind the ears the first ring keeps its distance from their bases.
+            let d = NECK[0] + 0.2 * (1.0 - cos);
+            rays.push(Ray::new(h.s[17][j], start + dir * d + out * reach, -out, Layer::Whole));
+        }
         if j % 3 == 2 {
             let v = if j < 10 { h.s[18][j] } else { h.l[18][j] };
             rays.push(Ray::guide(v, start + dir * NECK[1] + out * reach, -out, Layer::Whole));
