@@ -44,7 +44,7 @@ fn benches(c: &mut Criterion) {
     let breed = |id: &str| library::breed(&table, id).expect("an embedded breed");
     let two: [Breed; 2] = [breed("labrador"), breed("pug")];
     let same_look = Breed { look: two[0].look.clone(), ..two[1].clone() };
-    let mut pipeline = Pipeline::new(rig.clone(), table.clone(), LEVEL).expect("a level that is allowed");
+    let mut pipeline = Pipeline::new(rig.clone(), LEVEL).expect("a level that is allowed");
     let plan = pipeline.skin_plan().clone();
     let mut evaluator = Evaluator::new(&plan);
     let mut deformed = Deformed::default();

@@ -25,7 +25,7 @@ fn stages(h: StageHashes) -> [(&'static str, u64); 4] {
 }
 
 fn pipeline(world: &World, level: u32) -> Pipeline {
-    Pipeline::new(world.rig.clone(), world.table.clone(), level).unwrap_or_else(|e| panic!("{e}"))
+    Pipeline::new(world.rig.clone(), level).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn hashes(pipeline: &mut Pipeline, breed: &londra::anatomy::Breed) -> StageHashes {

@@ -201,7 +201,7 @@ fn what_is_read_back_is_the_frame() {
 fn every_shipped_breed_is_read_back_as_its_frame_and_is_the_right_way_out() {
     let table = Arc::new(table());
     let rig = Arc::new(Rig::embedded(&table).unwrap());
-    let mut pipeline = Pipeline::new(rig, table.clone(), 2).unwrap();
+    let mut pipeline = Pipeline::new(rig, 2).unwrap();
     for id in library::ids() {
         let breed = library::breed(&table, id).unwrap();
         let frame = pipeline.update(&breed);

@@ -51,7 +51,7 @@ impl Heads {
     fn new(level: u32) -> Self {
         let table = Arc::new(ParamTable::embedded().unwrap());
         let rig = Arc::new(Rig::embedded(&table).unwrap());
-        let pipeline = Pipeline::new(rig, table.clone(), level).unwrap();
+        let pipeline = Pipeline::new(rig, level).unwrap();
         Self { table, pipeline }
     }
 

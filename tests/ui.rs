@@ -36,7 +36,7 @@ fn harness() -> Harness<'static, EditorState> {
 /// The hashes of the head that the state shows.
 fn hashes(state: &EditorState) -> StageHashes {
     let rig = Arc::new(Rig::embedded(&state.table).unwrap());
-    let mut pipeline = Pipeline::new(rig, state.table.clone(), state.level()).unwrap();
+    let mut pipeline = Pipeline::new(rig, state.level()).unwrap();
     pipeline.update(state.breed());
     pipeline.hashes()
 }

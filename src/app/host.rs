@@ -97,7 +97,7 @@ impl Host {
         let other = |e: &dyn std::fmt::Display| HostError::Other(e.to_string());
         let scene = Scene::new(&gpu, &mut renderer, &sources).map_err(|e| other(&e))?;
         let rig = Arc::new(Rig::embedded(&state.table).map_err(|e| other(&e))?);
-        let pipeline = Pipeline::new(rig, state.table.clone(), state.level()).map_err(|e| other(&e))?;
+        let pipeline = Pipeline::new(rig, state.level()).map_err(|e| other(&e))?;
 
         let proxy = proxy.clone();
         // A loop that has ended takes no more news, which is as well.
@@ -411,7 +411,7 @@ impl Host {
             return Ok(false);
         }
         let rig = Arc::new(Rig::embedded(&table).map_err(|e| format!("anatomy.ron: {e}"))?);
-        let pipeline = Pipeline::new(rig, table.clone(), self.state.level()).map_err(|e| e.to_string())?;
+        let pipeline = Pipeline::new(rig, self.state.level()).map_err(|e| e.to_string())?;
         let document = files::under_new_table(&table, &breeds, &self.state)?;
         self.pipeline = pipeline;
         self.scene.forget();

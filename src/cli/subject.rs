@@ -46,7 +46,7 @@ fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<()
 /// A pipeline for the table of the rigs.
 pub(super) fn pipeline(rigs: &Rigs, detail: &Detail) -> Result<Pipeline, Failure> {
     let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
-    let mut pipeline = Pipeline::new(rig, rigs.table.clone(), detail.level).map_err(Failure::work)?;
+    let mut pipeline = Pipeline::new(rig, detail.level).map_err(Failure::work)?;
     pipeline.set_threads(detail.threads as usize);
     Ok(pipeline)
 }

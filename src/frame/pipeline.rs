@@ -1,11 +1,12 @@
-//! The frame's inner loop: a breed in, drawable parts out. Owns every buffer; in the steady state it allocates nothing.
+//! The frame's inner loop: a breed in, drawable parts out. Owns every buffer; in the steady state
+//! it allocates nothing but the list of four parts that a frame lends out.
 //!
 //! Lifetimes: a plan for each level that was asked for, made once; shape buffers written when the values changed; colours
 //! when the look did.
 
 use super::parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
 use super::{StageHashes, eyeball, skin};
-use crate::anatomy::{Breed, Look, ParamTable};
+use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;
 use crate::rig::{Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
@@ -84,7 +85,7 @@ impl Pipeline {
     ///
     /// # Errors
     /// A level that is too deep.
-    pub fn new(rig: Arc<Rig>, _table: Arc<ParamTable>, level: u32) -> Result<Self, PipelineError> {
+    pub fn new(rig: Arc<Rig>, level: u32) -> Result<Self, PipelineError> {
         let plan = Self::plan(&rig, level)?;
         let n = rig.mesh().n_vertices();
         let parts = Self::parts(&rig, &plan);
