@@ -2,6 +2,7 @@
 //!
 //! `UPDATE_SNAPSHOTS=1 cargo test --test images` writes them anew. A picture that fails lies beside the old one as
 //! NAME.new.png. Without an adapter these tests fail and say how to get one.
+#![cfg(feature = "graphics")]
 
 #[path = "support/difference.rs"]
 mod difference;

@@ -1,4 +1,5 @@
 //! Every shader parses, validates, and declares the shared block alike; no device is needed.
+#![cfg(feature = "graphics")]
 
 use londra::render::{ShaderFile, ShaderSources};
 
