@@ -4,7 +4,9 @@ use glam::{Mat3, Vec3};
 use londra::math::rng::Rng;
 use londra::mesh::DedgeMesh;
 use londra::mesh::shapes::{Shape, cabinet, icosahedron, pillow, tetrahedron};
-use londra::subdiv::{BoundaryStep, Evaluator, MAX_FACES, Plan, PlanError, Scheme, evaluate_once, refine};
+use londra::subdiv::{
+    self, BoundaryStep, Evaluator, MAX_FACES, Plan, PlanError, PlanOptions, Scheme, Tags, evaluate_once,
+};
 
 const LEVELS: u32 = 5;
 
@@ -18,12 +20,8 @@ fn plan(shape: &Shape, levels: u32) -> Plan {
 
 /// All meshes of a few steps, from level 0.
 fn levels_of(shape: &Shape, levels: u32) -> Vec<DedgeMesh> {
-    let mut meshes = vec![mesh(shape)];
-    for level in 0..levels {
-        let finer = refine(&meshes[level as usize], BoundaryStep::from_level(level)).mesh;
-        meshes.push(finer);
-    }
-    meshes
+    let options = PlanOptions::new(Scheme::Sqrt3, levels);
+    subdiv::levels_of(&mesh(shape), &Tags::default(), &options).unwrap_or_else(|e| panic!("{}: {e}", shape.name))
 }
 
 fn jittered(shape: &Shape, seed: u64) -> Vec<Vec3> {

@@ -36,13 +36,29 @@ pub enum MeshError {
         /// How many there are.
         n_vertices: usize,
     },
-    /// A triangle has a vertex twice.
-    #[error("triangle {face} uses vertex {vertex} more than once; remove the triangle or merge its neighbours")]
+    /// A face has a vertex twice.
+    #[error("face {face} uses vertex {vertex} more than once; remove the face or merge its neighbours")]
     DegenerateTriangle {
         /// The triangle.
         face: FaceId,
         /// The repeated vertex.
         vertex: VertexId,
+    },
+    /// A polygon has fewer corners than a triangle.
+    #[error("face {face} has {found} corners; a face needs three or more")]
+    TooFewCorners {
+        /// The face.
+        face: FaceId,
+        /// How many it has.
+        found: usize,
+    },
+    /// The sizes of the polygons do not add up to the corners.
+    #[error("the sizes of the faces add up to {named} corners, but {given} are given")]
+    CornerCount {
+        /// The sum of the sizes.
+        named: u64,
+        /// The length of the list.
+        given: usize,
     },
     /// Two triangles run along the same edge in the same direction.
     #[error(
@@ -89,27 +105,15 @@ impl DedgeMesh {
     /// # Errors
     /// What keeps the list from being an oriented two-manifold: see [`MeshError`].
     pub fn from_triangles(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<DedgeMesh, MeshError> {
-        if triangles.is_empty() {
-            return Err(MeshError::NoFaces);
-        }
-        if n_vertices > MAX_VERTICES || triangles.len() > MAX_FACES {
-            return Err(MeshError::TooMany { n_vertices, n_faces: triangles.len() });
-        }
+        check_counts(n_vertices, triangles.len(), 3 * triangles.len())?;
         check_triangles(n_vertices, triangles)?;
 
-        let buckets = Buckets::by_origin(n_vertices, triangles);
-        if let Some(vertex) = (0..n_vertices).find(|&v| buckets.at(v).is_empty()) {
-            return Err(MeshError::IsolatedVertex { vertex: VertexId(vertex as u32) });
-        }
         let origin = triangles.as_flattened().to_vec();
-        let twin = find_twins(&origin, &buckets)?;
-        let outgoing = (0..n_vertices)
-            .map(|v| {
-                let bucket = buckets.at(v);
-                bucket.iter().copied().find(|&d| twin[d as usize] == NONE).unwrap_or(bucket[0])
-            })
-            .collect();
-
+        let buckets = Buckets::by_origin(n_vertices, &origin);
+        buckets.check_no_isolated()?;
+        let twin =
+            find_twins(&origin, &buckets, |d| DedgeId(d).next().0, |d| DedgeId(d).prev().0, |d| DedgeId(d).face())?;
+        let outgoing = outgoing_of(&twin, &buckets);
         let mesh = DedgeMesh { origin, twin, outgoing };
         for vertex in mesh.vertices() {
             let faces = buckets.at(vertex.index()).len();
@@ -120,6 +124,27 @@ impl DedgeMesh {
         }
         Ok(mesh)
     }
+}
+
+/// Whether so many vertices, faces and corners can be numbered.
+pub(super) fn check_counts(n_vertices: usize, n_faces: usize, n_corners: usize) -> Result<(), MeshError> {
+    if n_faces == 0 {
+        return Err(MeshError::NoFaces);
+    }
+    if n_vertices > MAX_VERTICES || n_corners > 3 * MAX_FACES {
+        return Err(MeshError::TooMany { n_vertices, n_faces });
+    }
+    Ok(())
+}
+
+/// For each vertex a directed edge that starts there, on the boundary the one without a twin.
+pub(super) fn outgoing_of(twin: &[u32], buckets: &Buckets) -> Vec<u32> {
+    (0..buckets.offsets.len() - 1)
+        .map(|v| {
+            let bucket = buckets.at(v);
+            bucket.iter().copied().find(|&d| twin[d as usize] == NONE).unwrap_or(bucket[0])
+        })
+        .collect()
 }
 
 fn check_triangles(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<(), MeshError> {
@@ -139,14 +164,13 @@ fn check_triangles(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<(), Mesh
 }
 
 /// Directed edges sorted by the vertex they start at, ascending within a vertex: a counting sort.
-struct Buckets {
+pub(super) struct Buckets {
     offsets: Vec<u32>,
     dedges: Vec<u32>,
 }
 
 impl Buckets {
-    fn by_origin(n_vertices: usize, triangles: &[[u32; 3]]) -> Buckets {
-        let origins = triangles.as_flattened();
+    pub(super) fn by_origin(n_vertices: usize, origins: &[u32]) -> Buckets {
         let mut offsets = vec![0_u32; n_vertices + 1];
         for &v in origins {
             offsets[v as usize + 1] += 1;
@@ -163,35 +187,49 @@ impl Buckets {
         Buckets { offsets, dedges }
     }
 
-    fn at(&self, vertex: usize) -> &[u32] {
+    pub(super) fn check_no_isolated(&self) -> Result<(), MeshError> {
+        match self.offsets.windows(2).position(|ends| ends[0] == ends[1]) {
+            Some(vertex) => Err(MeshError::IsolatedVertex { vertex: VertexId(vertex as u32) }),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn at(&self, vertex: usize) -> &[u32] {
         &self.dedges[self.offsets[vertex] as usize..self.offsets[vertex + 1] as usize]
     }
 }
 
-fn find_twins(origin: &[u32], buckets: &Buckets) -> Result<Vec<u32>, MeshError> {
+/// The twin of each directed edge, [`NONE`] on the boundary. `next`, `prev` and `face` are those of the faces at hand.
+pub(super) fn find_twins(
+    origin: &[u32],
+    buckets: &Buckets,
+    next: impl Fn(u32) -> u32,
+    prev: impl Fn(u32) -> u32,
+    face: impl Fn(u32) -> FaceId,
+) -> Result<Vec<u32>, MeshError> {
     let n_vertices = buckets.offsets.len() - 1;
     let mut twin = vec![NONE; origin.len()];
     // For the vertex at hand: the directed edge that leaves it towards each target. Emptied after each vertex.
     let mut leaving = vec![NONE; n_vertices];
     for vertex in 0..n_vertices {
         for &dedge in buckets.at(vertex) {
-            let target = origin[DedgeId(dedge).next().index()];
+            let target = origin[next(dedge) as usize];
             let first = std::mem::replace(&mut leaving[target as usize], dedge);
             if first != NONE {
                 return Err(MeshError::DuplicateDedge {
-                    first: DedgeId(first).face(),
-                    second: DedgeId(dedge).face(),
+                    first: face(first),
+                    second: face(dedge),
                     from: VertexId(vertex as u32),
                     to: VertexId(target),
                 });
             }
         }
         for &dedge in buckets.at(vertex) {
-            let arriving = DedgeId(dedge).prev();
-            twin[arriving.index()] = leaving[origin[arriving.index()] as usize];
+            let arriving = prev(dedge) as usize;
+            twin[arriving] = leaving[origin[arriving] as usize];
         }
         for &dedge in buckets.at(vertex) {
-            leaving[origin[DedgeId(dedge).next().index()] as usize] = NONE;
+            leaving[origin[next(dedge) as usize] as usize] = NONE;
         }
     }
     Ok(twin)

@@ -154,22 +154,7 @@ impl DedgeMesh {
     ///
     /// Each loop starts at its smallest vertex; loops come in the order of those. Empty on a closed mesh.
     pub fn boundary_loops(&self) -> Vec<Vec<VertexId>> {
-        let mut seen = vec![false; self.n_vertices()];
-        let mut loops = Vec::new();
-        for start in self.vertices().filter(|&v| self.is_boundary_vertex(v)) {
-            if seen[start.index()] {
-                continue;
-            }
-            let mut vertices = Vec::new();
-            let mut vertex = start;
-            while !seen[vertex.index()] {
-                seen[vertex.index()] = true;
-                vertices.push(vertex);
-                vertex = self.target(self.outgoing(vertex));
-            }
-            loops.push(vertices);
-        }
-        loops
+        boundary_loops(self.n_vertices(), |v| self.is_boundary_vertex(v), |v| self.target(self.outgoing(v)))
     }
 
     /// Vertices - edges + faces: 2 for a sphere, 1 for a disk, 0 for a torus, summed over components.
@@ -185,4 +170,26 @@ impl DedgeMesh {
     pub fn validate(&self) -> Result<(), InvariantError> {
         validate(self)
     }
+}
+
+/// Loops over `next` of the vertices for which `is_boundary` holds, each from its smallest vertex, in that order.
+pub(super) fn boundary_loops(
+    n_vertices: usize,
+    is_boundary: impl Fn(VertexId) -> bool,
+    next: impl Fn(VertexId) -> VertexId,
+) -> Vec<Vec<VertexId>> {
+    let mut seen = vec![false; n_vertices];
+    let mut loops = Vec::new();
+    for start in (0..n_vertices as u32).map(VertexId).filter(|&v| is_boundary(v)) {
+        let mut vertices = Vec::new();
+        let mut vertex = start;
+        while !std::mem::replace(&mut seen[vertex.index()], true) {
+            vertices.push(vertex);
+            vertex = next(vertex);
+        }
+        if !vertices.is_empty() {
+            loops.push(vertices);
+        }
+    }
+    loops
 }

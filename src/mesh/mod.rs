@@ -7,6 +7,7 @@
 mod build;
 mod dedge;
 mod ids;
+mod polygons;
 mod ring;
 pub mod shapes;
 mod validate;
@@ -14,5 +15,6 @@ mod validate;
 pub use build::MeshError;
 pub use dedge::DedgeMesh;
 pub use ids::{DedgeId, FaceId, VertexId};
+pub use polygons::PolygonMesh;
 pub use ring::{OutgoingDedges, Ring};
 pub use validate::InvariantError;

@@ -4,8 +4,12 @@ use glam::Vec3;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::kernels;
 use super::lane::Lane;
+use super::limit::LimitTable;
+use super::normals::Rings;
 use super::plan::Plan;
+use super::scheme::{Normals, Positions};
 use super::stencil::StencilTable;
 
 /// Rows that one task takes: enough to pay for handing it over, few enough to balance.
@@ -18,7 +22,7 @@ const MAX_THREADS: usize = 256;
 pub struct Surface<'a> {
     /// One for each vertex of the plan's last level.
     pub positions: &'a [Vec3],
-    /// Unit vectors, as many: area-weighted over the faces around, +Y where those have no area.
+    /// Unit vectors, as many, as the plan's options say, and none where those want none. +Y where none is defined.
     pub normals: &'a [Vec3],
     /// Three for each face of the last level, counter-clockwise.
     pub indices: &'a [u32],
@@ -35,6 +39,8 @@ pub struct Evaluator {
     fine: Vec<Lane>,
     /// The last level.
     finest: Vec<Lane>,
+    /// Where it goes, for plans with limit positions and normals from faces.
+    limit: Vec<Lane>,
     /// What [`Evaluator::evaluate`] lends out.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -50,6 +56,7 @@ impl Evaluator {
             coarse: Vec::new(),
             fine: Vec::new(),
             finest: Vec::new(),
+            limit: Vec::new(),
             positions: Vec::new(),
             normals: Vec::new(),
             pool: None,
@@ -84,17 +91,39 @@ impl Evaluator {
         Surface { positions: &self.positions, normals: &self.normals, indices: plan.indices() }
     }
 
-    /// As [`evaluate`](Self::evaluate), into the caller's buffers: one place for each vertex of the plan's last level.
+    /// As [`evaluate`](Self::evaluate), into the caller's buffers: one place for each vertex of the plan's last level, and
+    /// none for normals where the plan has no normals.
     ///
     /// # Panics
     /// Where a length is another.
     pub fn evaluate_into(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3]) {
         let n = plan.n_vertices();
-        assert!(positions.len() == n && normals.len() == n, "one value for each vertex of the last level");
+        let n_normals = if plan.options().normals == Normals::None { 0 } else { n };
+        assert!(positions.len() == n && normals.len() == n_normals, "one value for each vertex of the last level");
         self.fit(plan);
         self.refine(plan, control);
-        unpad(&self.finest, positions);
-        self.find_normals(plan, normals);
+        let limit_positions = plan.options().positions == Positions::Limit;
+        match (plan.limit(), &plan.rings) {
+            (Some(limit), None) if n_normals > 0 => {
+                let (source, pool) = (&self.finest[..], self.pool.as_ref());
+                let limit_out = if limit_positions { &mut *positions } else { &mut [] };
+                for_chunks_of_two(pool, limit_out, normals, |first, positions, normals| {
+                    kernels::limit_surface(limit, first, source, positions, normals);
+                });
+                if !limit_positions {
+                    unpad(&self.finest, positions);
+                }
+            }
+            (limit, rings) => {
+                if let Some(limit) = limit {
+                    self.push_to_limit(limit);
+                }
+                unpad(&self.finest, positions);
+                if let Some(rings) = rings {
+                    self.find_normals(rings, normals);
+                }
+            }
+        }
     }
 
     /// The same stencils on any three channels (a colour, a flow): `control` has one value for each control vertex,
@@ -106,6 +135,9 @@ impl Evaluator {
         assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
         self.fit(plan);
         self.refine(plan, control);
+        if let Some(limit) = plan.limit().filter(|_| plan.options().positions == Positions::Limit) {
+            self.push_to_limit(limit);
+        }
         unpad(&self.finest, out);
     }
 
@@ -115,12 +147,13 @@ impl Evaluator {
             return;
         }
         self.fingerprint = plan.fingerprint();
-        let n_between = plan.n_vertices_at(plan.levels().saturating_sub(1));
+        let n_between = plan.tables().iter().map(StencilTable::n_sources).max().unwrap_or(0);
         self.coarse.resize(n_between, Lane::default());
         self.fine.resize(n_between, Lane::default());
         self.finest.resize(plan.n_vertices(), Lane::default());
         self.positions.resize(plan.n_vertices(), Vec3::ZERO);
-        self.normals.resize(plan.n_vertices(), Vec3::ZERO);
+        let n_normals = if plan.options().normals == Normals::None { 0 } else { plan.n_vertices() };
+        self.normals.resize(n_normals, Vec3::ZERO);
     }
 
     /// From control values to those of the last level, in `finest`.
@@ -139,26 +172,53 @@ impl Evaluator {
         apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest);
     }
 
-    fn find_normals(&self, plan: &Plan, normals: &mut [Vec3]) {
-        let Evaluator { finest, pool, .. } = self;
-        match pool {
-            Some(pool) if normals.len() > CHUNK => pool.install(|| {
-                normals
-                    .par_chunks_mut(CHUNK)
-                    .enumerate()
-                    .for_each(|(chunk, normals)| plan.rings.normals(chunk * CHUNK, finest, normals));
-            }),
-            _ => plan.rings.normals(0, finest, normals),
-        }
+    /// Replaces the values in `finest` by where they go.
+    fn push_to_limit(&mut self, limit: &LimitTable) {
+        self.limit.resize(self.finest.len(), Lane::default());
+        let (source, pool) = (&self.finest[..], self.pool.as_ref());
+        for_chunks(pool, &mut self.limit, |first, out| kernels::limit_positions(limit, first, source, out));
+        std::mem::swap(&mut self.limit, &mut self.finest);
+    }
+
+    fn find_normals(&self, rings: &Rings, normals: &mut [Vec3]) {
+        let positions = &self.finest[..];
+        for_chunks(self.pool.as_ref(), normals, |first, normals| rings.normals(first, positions, normals));
     }
 }
 
 fn apply(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
+    for_chunks(pool, out, |first, out| table.apply_lanes(first, source, out));
+}
+
+/// Runs `work` over chunks of `out`, each with the index of its first place, on as many threads as there are.
+fn for_chunks<T: Send>(pool: Option<&ThreadPool>, out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     match pool {
         Some(pool) if out.len() > CHUNK => pool.install(|| {
-            out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| table.apply_rows(chunk * CHUNK, source, out));
+            out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| work(chunk * CHUNK, out));
         }),
-        _ => table.apply_rows(0, source, out),
+        _ => work(0, out),
+    }
+}
+
+/// The same over two lists side by side; the first may be empty.
+fn for_chunks_of_two<T: Send>(
+    pool: Option<&ThreadPool>,
+    first: &mut [T],
+    second: &mut [T],
+    work: impl Fn(usize, &mut [T], &mut [T]) + Sync,
+) {
+    match pool {
+        Some(pool) if second.len() > CHUNK => pool.install(|| {
+            let n_chunks = second.len().div_ceil(CHUNK);
+            let firsts: Vec<&mut [T]> = if first.is_empty() {
+                std::iter::repeat_with(|| &mut [][..]).take(n_chunks).collect()
+            } else {
+                first.chunks_mut(CHUNK).collect()
+            };
+            let seconds = second.par_chunks_mut(CHUNK);
+            seconds.zip(firsts).enumerate().for_each(|(chunk, (second, first))| work(chunk * CHUNK, first, second));
+        }),
+        _ => work(0, first, second),
     }
 }
 

@@ -1,24 +1,47 @@
 //! Subdivision as a plan that is built once and evaluated every frame.
 //!
-//! Three lifetimes: a [`Plan`] is built when the control topology, the scheme or the depth changes, and can be shared;
-//! an [`Evaluator`] owns the buffers and lives as long as whoever draws; a [`Surface`] is borrowed from it for a frame.
+//! Three lifetimes: a [`Plan`] is built when the control topology, its [`Tags`] or the [`PlanOptions`] change, and can be
+//! shared; an [`Evaluator`] owns the buffers and lives as long as whoever draws; a [`Surface`] is borrowed from it for a
+//! frame.
 //!
-//! Masks (weights from a neighbourhood) and the splitting of faces are apart: `sqrt3.rs` and `refine.rs`.
+//! Masks (weights from a neighbourhood, one file for each scheme, with its paper) and the splitting of faces (`thirds`,
+//! `quarters`, `corners`, `dual_split`) are apart; `rows` brings them together into stencils.
 
+pub mod butterfly;
+pub mod catmull_clark;
+mod corners;
+pub mod doo_sabin;
+mod dual_split;
 mod evaluate;
+mod kernels;
 mod lane;
+mod level;
+mod limit;
+pub mod loop_scheme;
 mod mask;
+mod neighbourhood;
 mod normals;
 mod plan;
-mod refine;
+mod prepare;
+mod quarters;
+mod refined;
+mod rows;
+mod rule;
 mod runs;
 mod scheme;
 pub mod sqrt3;
+pub mod sqrt3_interpolating;
 mod stencil;
+mod steps;
+mod tags;
+mod thirds;
 
 pub use evaluate::{Evaluator, Surface, evaluate_once};
+pub use limit::{LimitMask, LimitTable};
 pub use mask::{CurveMask, RingMask};
-pub use plan::{MAX_FACES, Plan, PlanError};
-pub use refine::{Refined, VertexParent, refine};
-pub use scheme::{BoundaryStep, Scheme};
+pub use plan::{DoublePlan, MAX_FACES, Plan, PlanError};
+pub use rule::Rule;
+pub use scheme::{BoundaryRule, BoundaryStep, Creasing, LoopWeights, Normals, PlanOptions, Positions, Scheme};
 pub use stencil::{Blend, StencilTable, Weight};
+pub use steps::levels_of;
+pub use tags::{INFINITE_SHARPNESS, TagError, Tags};

@@ -7,10 +7,9 @@
 use glam::Vec3;
 
 use crate::math::ops;
-use crate::mesh::DedgeMesh;
+use crate::mesh::VertexId;
 
 use super::lane::Lane;
-use super::runs::{Run, pieces, runs_of};
 
 /// The normal where none is defined: the triangles around the vertex have no area, or a position is not finite.
 const FALLBACK: Vec3 = Vec3::Y;
@@ -21,45 +20,79 @@ const TINY: f32 = 1e-30;
 const HUGE: f32 = 1e30;
 
 /// Vertices whose sums are made unit vectors together.
-const BLOCK: usize = 64;
+pub(super) const BLOCK: usize = 64;
 
 /// The one-ring of each vertex, in compressed form. Inside the surface the first neighbour stands again at the end, so
 /// that successive entries are the triangles there as well as on the boundary.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Rings {
-    neighbours: Vec<u32>,
-    runs: Vec<Run>,
+    pub(super) neighbours: Vec<u32>,
+    pub(super) runs: Vec<RingRun>,
+    pub(super) n_vertices: usize,
+}
+
+/// Vertices with rings of the same length, one after another; they end where the next run begins.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct RingRun {
+    pub(super) first_vertex: u32,
+    pub(super) first_entry: u32,
+    pub(super) len: u32,
 }
 
 impl Rings {
-    pub(super) fn of(mesh: &DedgeMesh) -> Rings {
-        let mut offsets = Vec::with_capacity(mesh.n_vertices() + 1);
-        let mut neighbours = Vec::with_capacity(mesh.n_dedges() + mesh.n_vertices());
-        offsets.push(0);
-        for vertex in mesh.vertices() {
-            neighbours.extend(mesh.ring(vertex).map(|v| v.0));
-            if !mesh.is_boundary_vertex(vertex) {
-                neighbours.push(mesh.target(mesh.outgoing(vertex)).0);
+    /// Rings of all vertices, given the neighbours of each and whether it lies on the boundary.
+    pub(super) fn of<R: Iterator<Item = VertexId>>(
+        n_vertices: usize,
+        n_entries: usize,
+        ring: impl Fn(VertexId) -> R,
+        is_boundary: impl Fn(VertexId) -> bool,
+    ) -> Rings {
+        let mut neighbours = Vec::with_capacity(n_entries);
+        let mut runs: Vec<RingRun> = Vec::new();
+        for vertex in (0..n_vertices as u32).map(VertexId) {
+            let first_entry = neighbours.len();
+            neighbours.extend(ring(vertex).map(|v| v.0));
+            if !is_boundary(vertex) {
+                neighbours.push(neighbours[first_entry]);
             }
-            offsets.push(neighbours.len() as u32);
+            let len = (neighbours.len() - first_entry) as u32;
+            if runs.last().is_none_or(|run| run.len != len) {
+                runs.push(RingRun { first_vertex: vertex.0, first_entry: first_entry as u32, len });
+            }
         }
-        Rings { neighbours, runs: runs_of(&offsets) }
+        Rings { neighbours, runs, n_vertices }
+    }
+
+    /// Bytes of all rings.
+    pub(super) fn n_bytes(&self) -> usize {
+        size_of_val(&self.neighbours[..]) + size_of_val(&self.runs[..])
     }
 
     /// Unit normals of the vertices from `first` on, one for each place in `out`. `positions` are those of all.
     pub(super) fn normals(&self, first: usize, positions: &[Lane], out: &mut [Vec3]) {
         let mut sums = [Lane::default(); BLOCK];
+        let mut run = self.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let first = first + block * BLOCK;
-            let sums = &mut sums[..out.len()];
-            let centres = &positions[first..first + out.len()];
-            for piece in pieces(&self.runs, first..first + sums.len()) {
-                let rings = self.neighbours[piece.entries].chunks_exact(piece.row_len);
-                for ((sum, &centre), ring) in sums[piece.out.clone()].iter_mut().zip(&centres[piece.out]).zip(rings) {
+            let (start, end) = (first + block * BLOCK, first + block * BLOCK + out.len());
+            let mut vertex = start;
+            while vertex < end {
+                let RingRun { first_vertex, first_entry, len } = self.runs[run];
+                let run_end = self.runs.get(run + 1).map_or(self.n_vertices, |next| next.first_vertex as usize);
+                let stop = run_end.min(end);
+                let entry = first_entry as usize + (vertex - first_vertex as usize) * len as usize;
+                let rings = &self.neighbours[entry..entry + (stop - vertex) * len as usize];
+                let sums = &mut sums[vertex - start..stop - start];
+                let centres = &positions[vertex..stop];
+                for ((sum, &centre), ring) in sums.iter_mut().zip(centres).zip(rings.chunks_exact(len as usize)) {
                     *sum = sum_of(centre, ring, positions);
                 }
+                vertex = stop;
+                if stop == run_end {
+                    run += 1;
+                }
             }
-            unit_vectors(sums, out);
+            unit_vectors(&sums[..out.len()], out);
         }
     }
 }
@@ -81,14 +114,15 @@ fn sum_of(centre: Lane, ring: &[u32], positions: &[Lane]) -> Lane {
 
 /// At most [`BLOCK`] sums as z, x, y, and as many places in `out`.
 #[inline(always)]
-fn unit_vectors(sums: &[Lane], out: &mut [Vec3]) {
+pub(super) fn unit_vectors(sums: &[Lane], out: &mut [Vec3]) {
     let mut squared = [1.0_f32; BLOCK];
-    for (squared, Lane([z, x, y, _])) in squared.iter_mut().zip(sums) {
+    for (squared, sum) in squared.iter_mut().zip(sums) {
+        let [z, x, y, _] = sum.0.to_array();
         *squared = x * x + y * y + z * z;
     }
     let inverse = squared.map(|squared| 1.0 / ops::sqrt(squared));
     for (i, (out, sum)) in out.iter_mut().zip(sums).enumerate() {
-        let [z, x, y, _] = sum.0;
+        let [z, x, y, _] = sum.0.to_array();
         let sum = Vec3::new(x, y, z);
         *out = if squared[i] > TINY && squared[i] < HUGE { sum * inverse[i] } else { unit_of_extreme(sum) };
     }
@@ -113,7 +147,7 @@ mod tests {
 
     fn unit(sum: Vec3) -> Vec3 {
         let mut out = [Vec3::ZERO];
-        unit_vectors(&[Lane([sum.z, sum.x, sum.y, 0.0])], &mut out);
+        unit_vectors(&[Lane::from(Vec3::new(sum.z, sum.x, sum.y))], &mut out);
         out[0]
     }
 

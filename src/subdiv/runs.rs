@@ -1,17 +1,20 @@
-//! Successive rows of equal length in a compressed table (CSR).
+//! Successive rows of equal length and weights in a compressed table (CSR).
 //!
-//! Refined meshes are nearly regular, so most rows have one of two lengths; a loop whose length the compiler knows is
+//! Refined meshes are nearly regular, so most rows are of one of two kinds; a loop whose length the compiler knows is
 //! several times faster than one that it does not.
 
 use std::ops::Range;
 
-/// Rows of the same length, one after another.
-#[derive(Clone, Debug, PartialEq)]
+/// Rows of the same kind, one after another; they end where the next run begins.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub(super) struct Run {
-    rows: Range<usize>,
-    first_entry: usize,
+    pub(super) first_row: u32,
+    pub(super) first_entry: u32,
     /// Entries of each row.
-    pub(super) row_len: usize,
+    pub(super) row_len: u32,
+    /// Where the weights of a row stand that all rows share.
+    pub(super) first_weight: u32,
 }
 
 /// The part of a run that lies within the rows asked for.
@@ -20,59 +23,57 @@ pub(super) struct Piece {
     pub(super) out: Range<usize>,
     /// Entries of all these rows.
     pub(super) entries: Range<usize>,
-    /// Entries of each row.
-    pub(super) row_len: usize,
+    /// Weights of each row; as many as a row has entries.
+    pub(super) weights: Range<usize>,
 }
 
-/// The runs of a table with these row offsets (one more than there are rows), in order and without gaps.
-pub(super) fn runs_of(offsets: &[u32]) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
-    for (row, ends) in offsets.windows(2).enumerate() {
-        let row_len = (ends[1] - ends[0]) as usize;
-        match runs.last_mut() {
-            Some(run) if run.row_len == row_len => run.rows.end = row + 1,
-            _ => runs.push(Run { rows: row..row + 1, first_entry: ends[0] as usize, row_len }),
-        }
-    }
-    runs
-}
-
-/// The runs cut to some rows, in order.
-pub(super) fn pieces(runs: &[Run], rows: Range<usize>) -> impl Iterator<Item = Piece> + '_ {
-    let first = runs.partition_point(|run| run.rows.end <= rows.start);
-    runs[first..].iter().take_while(move |run| run.rows.start < rows.end).map(move |run| {
-        let (start, end) = (run.rows.start.max(rows.start), run.rows.end.min(rows.end));
-        let first_entry = run.first_entry + (start - run.rows.start) * run.row_len;
-        Piece {
-            out: start - rows.start..end - rows.start,
-            entries: first_entry..first_entry + (end - start) * run.row_len,
-            row_len: run.row_len,
-        }
-    })
+/// The runs of a table with `n_rows` rows, cut to some of them, in order.
+pub(super) fn pieces(runs: &[Run], n_rows: usize, rows: Range<usize>) -> impl Iterator<Item = Piece> + '_ {
+    let first = runs.partition_point(|run| run.first_row as usize <= rows.start).saturating_sub(1);
+    let ends = runs[first..].iter().skip(1).map(|run| run.first_row as usize).chain([n_rows]);
+    let wanted = rows.clone();
+    runs[first..]
+        .iter()
+        .zip(ends)
+        .take_while(move |(run, _)| !wanted.is_empty() && (run.first_row as usize) < wanted.end)
+        .map(move |(run, run_end)| {
+            let (run_start, len) = (run.first_row as usize, run.row_len as usize);
+            let (start, end) = (run_start.max(rows.start), run_end.min(rows.end));
+            let first_entry = run.first_entry as usize + (start - run_start) * len;
+            Piece {
+                out: start - rows.start..end - rows.start,
+                entries: first_entry..first_entry + (end - start) * len,
+                weights: run.first_weight as usize..run.first_weight as usize + len,
+            }
+        })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{pieces, runs_of};
+    use super::{Run, pieces};
 
     #[test]
     fn a_row_is_left_out_or_read_from_elsewhere() {
-        let lengths = [3_usize, 3, 7, 7, 7, 1, 3];
+        let lengths = [3_u32, 3, 7, 7, 7, 1, 3];
         let mut offsets = vec![0_u32];
-        offsets.extend(lengths.iter().scan(0, |end, &len| {
-            *end += len as u32;
-            Some(*end)
-        }));
-        let runs = runs_of(&offsets);
+        let mut runs: Vec<Run> = Vec::new();
+        for (row, &row_len) in lengths.iter().enumerate() {
+            if runs.last().is_none_or(|run| run.row_len != row_len) {
+                let first_weight = runs.last().map_or(0, |run| run.first_weight + run.row_len);
+                runs.push(Run { first_row: row as u32, first_entry: offsets[row], row_len, first_weight });
+            }
+            offsets.push(offsets[row] + row_len);
+        }
         assert_eq!(runs.len(), 4);
         for start in 0..=lengths.len() {
             for end in start..=lengths.len() {
                 let mut row = start;
-                for piece in pieces(&runs, start..end) {
+                for piece in pieces(&runs, lengths.len(), start..end) {
+                    let len = piece.weights.len();
+                    assert_eq!(len, lengths[row] as usize);
                     for (i, out) in piece.out.enumerate() {
                         assert_eq!(out, row - start);
-                        assert_eq!(piece.entries.start + i * piece.row_len, offsets[row] as usize);
-                        assert_eq!(piece.row_len, lengths[row]);
+                        assert_eq!(piece.entries.start + i * len, offsets[row] as usize);
                         row += 1;
                     }
                 }

@@ -1,9 +1,18 @@
 //! Stencil tables: rows of sources and weights in compressed form (CSR).
+//!
+//! The schemes are linear, so that vertices whose surroundings have the same topology share one set of weights whatever
+//! their shape. Successive rows of the same length and weights form a run, and a run stores its weights once. Refined
+//! meshes are nearly regular: a table has few runs but for the control vertices, takes little more room than its sources,
+//! and is applied by loops whose length and weights are known before they start.
 
 use glam::{DVec3, Vec3};
 
+use crate::mesh::{DedgeMesh, VertexId};
+
+use super::kernels;
 use super::lane::Lane;
-use super::runs::{Run, pieces, runs_of};
+use super::mask::{CurveMask, RingMask};
+use super::runs::{Run, pieces};
 
 /// The type of a table's weights: `f32` for frames, `f64` for oracles.
 pub trait Weight: Copy + PartialEq + Send + Sync + std::fmt::Debug {
@@ -59,41 +68,42 @@ blend!(f32, f32);
 blend!(DVec3, f64);
 blend!(f64, f64);
 
-impl Blend<f32> for Lane {
-    #[inline(always)]
-    fn scaled(self, weight: f32) -> Self {
-        Lane::scaled(self, weight)
-    }
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Lane::plus(self, other)
-    }
-}
-
 /// For each vertex of a level, the weighted sum over vertices of a coarser level that gives it.
 ///
 /// Rows are summed in stored order, so that a row has the same bits however the rows are spread over threads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StencilTable<W = f32> {
-    n_sources: usize,
-    offsets: Vec<u32>,
-    sources: Vec<u32>,
-    weights: Vec<W>,
-    /// The rows again, by runs of equal length: most rows are of two lengths, and a loop of known length is faster.
-    runs: Vec<Run>,
+    pub(super) n_sources: usize,
+    pub(super) n_rows: usize,
+    pub(super) sources: Vec<u32>,
+    pub(super) weights: Vec<W>,
+    pub(super) runs: Vec<Run>,
 }
 
 impl<W: Weight> StencilTable<W> {
     /// A table from rows of (source, weight), each source below `n_sources`.
     pub(super) fn builder(n_sources: usize, n_rows: usize, n_entries: usize) -> StencilBuilder<W> {
-        let mut offsets = Vec::with_capacity(n_rows + 1);
-        offsets.push(0);
         StencilBuilder {
-            n_sources,
-            offsets,
-            sources: Vec::with_capacity(n_entries),
-            weights: Vec::with_capacity(n_entries),
+            n_rows_expected: n_rows,
+            row: Vec::new(),
+            table: StencilTable {
+                n_sources,
+                n_rows: 0,
+                sources: Vec::with_capacity(n_entries),
+                weights: Vec::new(),
+                runs: Vec::new(),
+            },
         }
+    }
+
+    /// The table that leaves everything as it is, but for an order: row `i` is source `order[i]`.
+    pub(super) fn selection(n_sources: usize, order: &[u32]) -> StencilTable<W> {
+        let mut builder = Self::builder(n_sources, order.len(), order.len());
+        for &source in order {
+            builder.entry(source, 1.0);
+            builder.end_row();
+        }
+        builder.finish()
     }
 
     /// Number of vertices that rows may name.
@@ -103,18 +113,29 @@ impl<W: Weight> StencilTable<W> {
 
     /// Number of rows: vertices of the finer level.
     pub fn n_rows(&self) -> usize {
-        self.offsets.len() - 1
+        self.n_rows
     }
 
-    /// Number of weights in all rows.
+    /// Number of weights in all rows, counting shared ones as often as they are used.
     pub fn n_entries(&self) -> usize {
         self.sources.len()
     }
 
+    /// Bytes of sources, weights and runs.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&self.sources[..]) + size_of_val(&self.weights[..]) + size_of_val(&self.runs[..])
+    }
+
     /// Sources and weights of one row, equally many.
+    ///
+    /// # Panics
+    /// Where the table has no such row.
     pub fn row(&self, row: usize) -> (&[u32], &[W]) {
-        let entries = self.offsets[row] as usize..self.offsets[row + 1] as usize;
-        (&self.sources[entries.clone()], &self.weights[entries])
+        assert!(row < self.n_rows, "row {row} of {}", self.n_rows);
+        let run = &self.runs[self.runs.partition_point(|run| run.first_row as usize <= row) - 1];
+        let len = run.row_len as usize;
+        let entry = run.first_entry as usize + (row - run.first_row as usize) * len;
+        (&self.sources[entry..entry + len], &self.weights[run.first_weight as usize..][..len])
     }
 
     /// Computes all rows: `source` has [`n_sources`](Self::n_sources) values, `out` has [`n_rows`](Self::n_rows).
@@ -122,21 +143,17 @@ impl<W: Weight> StencilTable<W> {
     /// # Panics
     /// Where a length is another.
     pub fn apply<P: Blend<W>>(&self, source: &[P], out: &mut [P]) {
-        self.apply_rows(0, source, out);
-    }
-
-    /// Computes the rows from `first_row` on, one for each place in `out`.
-    pub(super) fn apply_rows<P: Blend<W>>(&self, first_row: usize, source: &[P], out: &mut [P]) {
         assert_eq!(source.len(), self.n_sources, "one value for each source");
-        assert!(first_row + out.len() <= self.n_rows(), "at most one value for each row");
-        for piece in pieces(&self.runs, first_row..first_row + out.len()) {
-            let (sources, weights) = (&self.sources[piece.entries.clone()], &self.weights[piece.entries]);
-            let out = &mut out[piece.out];
-            match piece.row_len {
-                1 => apply_run::<1, W, P>(sources, weights, source, out),
-                3 => apply_run::<3, W, P>(sources, weights, source, out),
-                7 => apply_run::<7, W, P>(sources, weights, source, out),
-                len => apply_long_run(len, sources, weights, source, out),
+        assert_eq!(out.len(), self.n_rows, "one value for each row");
+        for piece in pieces(&self.runs, self.n_rows, 0..out.len()) {
+            let weights = &self.weights[piece.weights];
+            let rows = self.sources[piece.entries].chunks_exact(weights.len());
+            for (out, sources) in out[piece.out].iter_mut().zip(rows) {
+                let mut sum = source[sources[0] as usize].scaled(weights[0]);
+                for (&s, &weight) in sources[1..].iter().zip(&weights[1..]) {
+                    sum = sum.plus(source[s as usize].scaled(weight));
+                }
+                *out = sum;
             }
         }
     }
@@ -173,56 +190,76 @@ impl<W: Weight> StencilTable<W> {
     }
 }
 
+impl StencilTable<f32> {
+    /// Computes the rows from `first_row` on, one for each place in `out`, on lanes.
+    pub(super) fn apply_lanes(&self, first_row: usize, source: &[Lane], out: &mut [Lane]) {
+        assert_eq!(source.len(), self.n_sources, "one value for each source");
+        assert!(first_row + out.len() <= self.n_rows, "at most one value for each row");
+        kernels::apply(self, first_row, source, out);
+    }
+}
+
 /// Collects rows.
 pub(super) struct StencilBuilder<W> {
-    n_sources: usize,
-    offsets: Vec<u32>,
-    sources: Vec<u32>,
-    weights: Vec<W>,
+    n_rows_expected: usize,
+    /// Weights of the row at hand.
+    row: Vec<W>,
+    table: StencilTable<W>,
 }
 
 impl<W: Weight> StencilBuilder<W> {
     /// Adds a source to the row at hand.
+    #[inline]
     pub(super) fn entry(&mut self, source: u32, weight: f64) {
-        debug_assert!((source as usize) < self.n_sources);
-        self.sources.push(source);
-        self.weights.push(W::from_f64(weight));
+        debug_assert!((source as usize) < self.table.n_sources);
+        self.table.sources.push(source);
+        self.row.push(W::from_f64(weight));
+    }
+
+    /// Adds a vertex and its ring to the row at hand.
+    #[inline]
+    pub(super) fn ring(&mut self, vertex: VertexId, ring: impl Iterator<Item = VertexId>, mask: RingMask) {
+        self.entry(vertex.0, mask.centre);
+        for neighbour in ring {
+            self.entry(neighbour.0, mask.neighbour);
+        }
+    }
+
+    /// Adds a boundary vertex to the row at hand, then its two neighbours along the boundary, as a ring has them: first
+    /// the one after.
+    pub(super) fn curve(&mut self, mesh: &DedgeMesh, vertex: VertexId, mask: CurveMask) {
+        let after = mesh.outgoing(vertex);
+        self.entry(vertex.0, mask.centre);
+        self.entry(mesh.target(after).0, mask.after);
+        if let Some(before) = mesh.outgoing_dedges(vertex).last() {
+            self.entry(mesh.origin(before.prev()).0, mask.before);
+        }
     }
 
     /// Ends the row at hand, which must have a source.
+    #[inline]
     pub(super) fn end_row(&mut self) {
-        debug_assert!(self.sources.len() > *self.offsets.last().unwrap_or(&0) as usize);
-        self.offsets.push(self.sources.len() as u32);
+        let table = &mut self.table;
+        let len = self.row.len();
+        debug_assert!(len > 0);
+        let shares = table.runs.last().is_some_and(|run| {
+            run.row_len as usize == len && table.weights[run.first_weight as usize..][..len] == self.row[..]
+        });
+        if !shares {
+            table.runs.push(Run {
+                first_row: table.n_rows as u32,
+                first_entry: (table.sources.len() - len) as u32,
+                row_len: len as u32,
+                first_weight: table.weights.len() as u32,
+            });
+            table.weights.extend_from_slice(&self.row);
+        }
+        self.row.clear();
+        table.n_rows += 1;
     }
 
     pub(super) fn finish(self) -> StencilTable<W> {
-        let runs = runs_of(&self.offsets);
-        let StencilBuilder { n_sources, offsets, sources, weights } = self;
-        StencilTable { n_sources, offsets, sources, weights, runs }
-    }
-}
-
-/// Rows of `N` entries each.
-#[inline(always)]
-fn apply_run<const N: usize, W: Weight, P: Blend<W>>(sources: &[u32], weights: &[W], source: &[P], out: &mut [P]) {
-    let (sources, _) = sources.as_chunks::<N>();
-    let (weights, _) = weights.as_chunks::<N>();
-    for ((out, sources), weights) in out.iter_mut().zip(sources).zip(weights) {
-        let mut sum = source[sources[0] as usize].scaled(weights[0]);
-        for i in 1..N {
-            sum = sum.plus(source[sources[i] as usize].scaled(weights[i]));
-        }
-        *out = sum;
-    }
-}
-
-/// Rows of `len` entries each, `len` at least 1.
-fn apply_long_run<W: Weight, P: Blend<W>>(len: usize, sources: &[u32], weights: &[W], source: &[P], out: &mut [P]) {
-    for ((out, sources), weights) in out.iter_mut().zip(sources.chunks_exact(len)).zip(weights.chunks_exact(len)) {
-        let mut sum = source[sources[0] as usize].scaled(weights[0]);
-        for (&s, &weight) in sources[1..].iter().zip(&weights[1..]) {
-            sum = sum.plus(source[s as usize].scaled(weight));
-        }
-        *out = sum;
+        debug_assert_eq!(self.table.n_rows, self.n_rows_expected);
+        self.table
     }
 }

@@ -1,0 +1,203 @@
+//! Limit positions and tangents: where the vertices of a level go, and how the surface lies there.
+//!
+//! A mask is a left eigenvector of the scheme's step on the one-ring: of eigenvalue 1 for the position, of the next two
+//! for the tangents (Halstead, Kass and DeRose 1993). The rule is that of the vertex at this level: one that is still
+//! semi-sharp is taken as sharp for ever, and a dart as smooth, which neither is quite.
+
+use crate::math::ops;
+use crate::mesh::VertexId;
+
+use super::level::Level;
+use super::mask::CurveMask;
+use super::neighbourhood::Neighbourhood;
+use super::rule::Rule;
+use super::runs::Run;
+use super::scheme::{BoundaryStep, PlanOptions, Scheme};
+use super::stencil::Weight;
+use super::{loop_scheme, sqrt3};
+
+/// Masks of a vertex inside the surface over its ring, counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitMask {
+    /// Position: weight of the vertex itself.
+    pub centre: f64,
+    /// Position: weight of each neighbour.
+    pub neighbour: f64,
+    n: usize,
+}
+
+impl LimitMask {
+    /// The mask of valence `n` in which the ring as a whole has the weight `ring`.
+    pub fn smooth(n: usize, ring: f64) -> LimitMask {
+        LimitMask { centre: 1.0 - ring, neighbour: ring / n as f64, n }
+    }
+
+    /// Weights of neighbour `i` in the two tangents, whose cross product points outwards. Their lengths have no meaning.
+    pub fn tangents(&self, i: usize) -> [f64; 2] {
+        let angle = std::f64::consts::TAU * i as f64 / self.n as f64;
+        [ops::cos(angle), ops::sin(angle)]
+    }
+}
+
+/// For each vertex of a level the weights, over itself and its ring, of its limit position and of two tangents.
+///
+/// Runs of rows share their weights as in a [`StencilTable`](super::StencilTable).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitTable<W = f32> {
+    pub(super) n_rows: usize,
+    pub(super) sources: Vec<u32>,
+    /// Of the position and of the two tangents.
+    pub(super) weights: Vec<[W; 3]>,
+    pub(super) runs: Vec<Run>,
+}
+
+impl<W: Weight> LimitTable<W> {
+    /// Number of rows, and of sources: vertices of the level.
+    pub fn n_rows(&self) -> usize {
+        self.n_rows
+    }
+
+    /// Bytes of sources, weights and runs.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&self.sources[..]) + size_of_val(&self.weights[..]) + size_of_val(&self.runs[..])
+    }
+
+    /// Sources of one row, the vertex itself first, and for each its weights in the position and in the two tangents.
+    ///
+    /// # Panics
+    /// Where the table has no such row.
+    pub fn row(&self, row: usize) -> (&[u32], &[[W; 3]]) {
+        assert!(row < self.n_rows, "row {row} of {}", self.n_rows);
+        let run = &self.runs[self.runs.partition_point(|run| run.first_row as usize <= row) - 1];
+        let len = run.row_len as usize;
+        let entry = run.first_entry as usize + (row - run.first_row as usize) * len;
+        (&self.sources[entry..entry + len], &self.weights[run.first_weight as usize..][..len])
+    }
+
+    /// The masks of all vertices of a level. `steps` are the steps that led to it.
+    pub(super) fn build(level: &Level, options: &PlanOptions, steps: u32) -> LimitTable<W> {
+        let n_rows = level.mesh.n_vertices();
+        let table = LimitTable {
+            n_rows: 0,
+            sources: Vec::with_capacity(n_rows + level.mesh.n_dedges()),
+            weights: Vec::new(),
+            runs: Vec::new(),
+        };
+        let mut rows =
+            Rows { level, options, steps, table, here: Neighbourhood::default(), row: Vec::new(), rounded: Vec::new() };
+        for vertex in level.mesh.vertices() {
+            rows.vertex(vertex);
+            rows.write();
+        }
+        rows.table
+    }
+}
+
+struct Rows<'a, W> {
+    level: &'a Level,
+    options: &'a PlanOptions,
+    steps: u32,
+    table: LimitTable<W>,
+    here: Neighbourhood,
+    /// The row in the making: the vertex, then its whole ring.
+    row: Vec<(u32, [f64; 3])>,
+    rounded: Vec<[W; 3]>,
+}
+
+impl<W: Weight> Rows<'_, W> {
+    fn write(&mut self) {
+        let table = &mut self.table;
+        self.row.retain(|(_, weights)| *weights != [0.0; 3]);
+        self.rounded.clear();
+        self.rounded.extend(self.row.iter().map(|(_, weights)| weights.map(W::from_f64)));
+        let len = self.row.len();
+        let shares = table.runs.last().is_some_and(|run| {
+            run.row_len as usize == len && table.weights[run.first_weight as usize..][..len] == self.rounded[..]
+        });
+        if !shares {
+            table.runs.push(Run {
+                first_row: table.n_rows as u32,
+                first_entry: table.sources.len() as u32,
+                row_len: len as u32,
+                first_weight: table.weights.len() as u32,
+            });
+            table.weights.extend_from_slice(&self.rounded);
+        }
+        table.sources.extend(self.row.iter().map(|(source, _)| source));
+        table.n_rows += 1;
+    }
+
+    fn vertex(&mut self, vertex: VertexId) {
+        self.row.clear();
+        let mesh = &self.level.mesh;
+        if self.level.is_plain() && !mesh.is_boundary_vertex(vertex) {
+            self.row.push((vertex.0, [0.0; 3]));
+            self.row.extend(mesh.ring(vertex).map(|v| (v.0, [0.0; 3])));
+            return self.smooth(true);
+        }
+        self.here.load(self.level, vertex, self.options.creasing);
+        self.row.push((vertex.0, [0.0; 3]));
+        self.row.extend(self.here.ring.iter().map(|&v| (v, [0.0; 3])));
+        let fixed = self.level.is_fixed(vertex);
+        let sharp: Vec<usize> = (0..self.here.ring.len()).filter(|&i| self.here.around.edges[i] > 0.0).collect();
+        match Rule::of(sharp.len(), self.here.around.vertex > 0.0) {
+            _ if fixed => {
+                self.row[0].1[0] = 1.0;
+                self.sides(&sharp);
+            }
+            Rule::Smooth | Rule::Dart => self.smooth(true),
+            Rule::Crease => self.curve(&sharp),
+            Rule::Corner => {
+                self.row[0].1[0] = 1.0;
+                self.sides(&sharp);
+            }
+        }
+    }
+
+    fn smooth(&mut self, moves: bool) {
+        let n = self.row.len() - 1;
+        let mask = match self.options.scheme {
+            Scheme::Loop => loop_scheme::limit_inner(n, self.options.loop_weights),
+            _ => sqrt3::limit_inner(n),
+        };
+        self.row[0].1[0] = if moves { mask.centre } else { 1.0 };
+        for i in 0..n {
+            let [t1, t2] = mask.tangents(i);
+            self.row[1 + i].1 = [if moves { mask.neighbour } else { 0.0 }, t1, t2];
+        }
+    }
+
+    /// A vertex that stays. Of a corner the tangents are two of its edges, next to each other along the surface; of a
+    /// vertex with no sharp edge those of the smooth surface.
+    fn sides(&mut self, sharp: &[usize]) {
+        if sharp.is_empty() && !self.level.mesh.is_boundary_vertex(VertexId(self.row[0].0)) {
+            return self.smooth(false);
+        }
+        let first = sharp.first().copied().unwrap_or(0);
+        let n = self.row.len() - 1;
+        let second = (first + 1) % n;
+        self.row[0].1 = [1.0, -1.0, -1.0];
+        self.row[1 + first].1[1] = 1.0;
+        self.row[1 + second].1[2] = 1.0;
+    }
+
+    /// A vertex on a curve: of a crease the side counter-clockwise from its first edge is taken.
+    fn curve(&mut self, sharp: &[usize]) {
+        let (first, last) = (sharp[0], sharp[1]);
+        let CurveMask { before, centre, after } = match self.options.scheme {
+            Scheme::Loop => loop_scheme::LIMIT_CURVE,
+            _ => sqrt3::LIMIT_CURVE,
+        };
+        let k = last - first;
+        let across = match self.options.scheme {
+            Scheme::Loop => loop_scheme::across(k),
+            _ => sqrt3::across(k, BoundaryStep::from_level(self.steps)),
+        };
+        self.row[0].1 = [centre, 0.0, across[0]];
+        self.row[1 + first].1 = [after, 1.0, 0.0];
+        self.row[1 + last].1 = [before, -1.0, 0.0];
+        for (i, weight) in across[1..].iter().enumerate() {
+            self.row[1 + first + i].1[2] += weight;
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Rows of √3.
+//!
+//! Creases are an extension of ours: Kobbelt's boundary, seen from both sides (Guillot and Gourret 2006 take the same
+//! view the other way round, a boundary as a crease whose other side is closed). Where sharpness ends, positions are
+//! blended with those that the smooth scheme has at the same places: a point at a third of an edge is the middle of the
+//! triangle that would lie there had the edge been turned.
+
+use crate::mesh::{DedgeId, VertexId};
+
+use super::super::level::Level;
+use super::super::neighbourhood::Neighbourhood;
+use super::super::refined::{Refined, VertexParent};
+use super::super::rule::Rule;
+use super::super::scheme::{BoundaryStep, Creasing};
+use super::super::sqrt3 as masks;
+use super::super::stencil::{StencilBuilder, StencilTable, Weight};
+
+/// One row for each vertex of the child.
+pub(in super::super) fn table<W: Weight>(
+    level: &Level,
+    child: &Refined,
+    step: BoundaryStep,
+    creasing: Creasing,
+) -> StencilTable<W> {
+    let mesh = &level.mesh;
+    let n_entries = mesh.n_vertices() + 2 * mesh.n_dedges();
+    let mut builder = StencilTable::builder(mesh.n_vertices(), child.parents.len(), n_entries);
+    let mut rows = Rows { level, step, creasing, builder: &mut builder, here: Neighbourhood::default() };
+    for &parent in &child.parents {
+        match parent {
+            VertexParent::Vertex(vertex) => rows.vertex(vertex),
+            VertexParent::Face(face) => {
+                for (corner, weight) in mesh.corners(face).into_iter().zip(masks::FACE_POINT) {
+                    rows.builder.entry(corner.0, weight);
+                }
+            }
+            VertexParent::FirstThird(dedge) => rows.third(dedge, mesh.origin(dedge), mesh.target(dedge)),
+            VertexParent::SecondThird(dedge) => rows.third(dedge, mesh.target(dedge), mesh.origin(dedge)),
+            VertexParent::Edge(_) => unreachable!("√3 puts no vertex into the middle of an edge"),
+        }
+        rows.builder.end_row();
+    }
+    builder.finish()
+}
+
+struct Rows<'a, W> {
+    level: &'a Level,
+    step: BoundaryStep,
+    creasing: Creasing,
+    builder: &'a mut StencilBuilder<W>,
+    here: Neighbourhood,
+}
+
+impl<W: Weight> Rows<'_, W> {
+    fn vertex(&mut self, vertex: VertexId) {
+        let mesh = &self.level.mesh;
+        if !self.level.is_plain() {
+            self.tagged_vertex(vertex);
+        } else if !mesh.is_boundary_vertex(vertex) {
+            self.builder.ring(vertex, mesh.ring(vertex), masks::inner_vertex(mesh.valence(vertex)));
+        } else if self.step == BoundaryStep::Keep {
+            self.builder.entry(vertex.0, 1.0);
+        } else {
+            self.builder.curve(mesh, vertex, masks::BOUNDARY_VERTEX);
+        }
+    }
+
+    fn tagged_vertex(&mut self, vertex: VertexId) {
+        if self.level.is_fixed(vertex) {
+            self.builder.entry(vertex.0, 1.0);
+            return;
+        }
+        self.here.load(self.level, vertex, self.creasing);
+        let rules = self.here.rules();
+        for (rule, weight, is_now) in [(rules.now, rules.weight_now, true), (rules.next, 1.0 - rules.weight_now, false)]
+        {
+            if weight <= 0.0 {
+                continue;
+            }
+            match rule {
+                Rule::Smooth | Rule::Dart => self.add_smooth(weight, is_now),
+                Rule::Crease if self.step == BoundaryStep::Trisect => self.add_curve(weight, is_now),
+                Rule::Crease | Rule::Corner => self.here.add_centre(weight),
+            }
+        }
+        self.here.finish_row(self.builder);
+    }
+
+    /// The smooth mask. After a keeping step the edges of a crease that is about to end are still there, but in the smooth
+    /// surface they would have been turned away: they do not count then.
+    fn add_smooth(&mut self, weight: f64, is_now: bool) {
+        let counts = |here: &Neighbourhood, edge: usize| {
+            is_now || self.step == BoundaryStep::Keep || here.around.edges[edge] <= 0.0 || here.around.stays_sharp(edge)
+        };
+        let n = (0..self.here.ring.len()).filter(|&edge| counts(&self.here, edge)).count();
+        let mask = masks::inner_vertex(n);
+        self.here.add_centre(weight * mask.centre);
+        for edge in 0..self.here.ring.len() {
+            if counts(&self.here, edge) {
+                self.here.add_neighbour(edge, weight * mask.neighbour);
+            }
+        }
+    }
+
+    fn add_curve(&mut self, weight: f64, is_now: bool) {
+        self.here.add_centre(weight * masks::BOUNDARY_VERTEX.centre);
+        for edge in 0..self.here.ring.len() {
+            if if is_now { self.here.around.edges[edge] > 0.0 } else { self.here.around.stays_sharp(edge) } {
+                self.here.add_neighbour(edge, weight * masks::BOUNDARY_VERTEX.after);
+            }
+        }
+    }
+
+    /// A third of the way along a side that is cut, from its near end.
+    fn third(&mut self, dedge: DedgeId, near: VertexId, far: VertexId) {
+        let mesh = &self.level.mesh;
+        let mask = masks::BOUNDARY_POINT;
+        if self.level.is_plain() {
+            let is_first = mesh.origin(dedge) == near;
+            self.builder.curve(mesh, near, if is_first { mask } else { mask.reversed() });
+            return;
+        }
+        self.here.load(self.level, near, self.creasing);
+        let before = if self.level.is_fixed(near) { None } else { self.here.onward(far.0) };
+        // A sharpness below one: so much of the curve, the rest of the smooth surface.
+        let sharp = f64::from(self.level.edge_sharpness(dedge).min(1.0));
+        let smooth = (1.0 - sharp) / 3.0;
+        // Where the curve ends, the point before is the mirror image of the far end.
+        let (centre, after) = if before.is_some() {
+            (mask.centre, mask.after)
+        } else {
+            (mask.centre + 2.0 * mask.before, mask.after - mask.before)
+        };
+        self.builder.entry(near.0, sharp * centre + smooth);
+        self.builder.entry(far.0, sharp * after);
+        if let Some(before) = before {
+            self.builder.entry(before, sharp * mask.before);
+        }
+        if smooth > 0.0
+            && let Some(twin) = mesh.twin(dedge)
+        {
+            self.builder.entry(mesh.origin(dedge.prev()).0, smooth);
+            self.builder.entry(mesh.origin(twin.prev()).0, smooth);
+        }
+    }
+}
