@@ -2,15 +2,15 @@
 
 use crate::mesh::{DedgeId, FaceId, VertexId};
 
-use super::super::catmull_clark as masks;
-use super::super::corners::{PolygonLevel, RefinedPolygons};
-use super::super::mask::RingMask;
-use super::super::neighbourhood::Neighbourhood;
-use super::super::scheme::Creasing;
-use super::super::stencil::{StencilBuilder, StencilTable, Weight};
+use crate::subdiv::catmull_clark as masks;
+use crate::subdiv::corners::{PolygonLevel, RefinedPolygons};
+use crate::subdiv::mask::RingMask;
+use crate::subdiv::neighbourhood::Neighbourhood;
+use crate::subdiv::scheme::Creasing;
+use crate::subdiv::stencil::{StencilBuilder, StencilTable, Weight};
 
 /// One row for each vertex of the child.
-pub(in super::super) fn table<W: Weight>(
+pub(in crate::subdiv) fn table<W: Weight>(
     level: &PolygonLevel,
     child: &RefinedPolygons,
     creasing: Creasing,

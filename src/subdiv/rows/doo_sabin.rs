@@ -2,11 +2,11 @@
 
 use crate::mesh::PolygonMesh;
 
-use super::super::doo_sabin as masks;
-use super::super::stencil::{StencilTable, Weight};
+use crate::subdiv::doo_sabin as masks;
+use crate::subdiv::stencil::{StencilTable, Weight};
 
 /// One row for each vertex of the child: for each corner of each face of the parent.
-pub(in super::super) fn table<W: Weight>(mesh: &PolygonMesh) -> StencilTable<W> {
+pub(in crate::subdiv) fn table<W: Weight>(mesh: &PolygonMesh) -> StencilTable<W> {
     let n_rows = mesh.n_dedges();
     let mut builder = StencilTable::builder(mesh.n_vertices(), n_rows, 4 * n_rows);
     let mut weights: Vec<f64> = Vec::new();

@@ -2,15 +2,15 @@
 
 use crate::mesh::{DedgeId, VertexId};
 
-use super::super::level::Level;
-use super::super::loop_scheme as masks;
-use super::super::neighbourhood::Neighbourhood;
-use super::super::refined::{Refined, VertexParent};
-use super::super::scheme::PlanOptions;
-use super::super::stencil::{StencilBuilder, StencilTable, Weight};
+use crate::subdiv::level::Level;
+use crate::subdiv::loop_scheme as masks;
+use crate::subdiv::neighbourhood::Neighbourhood;
+use crate::subdiv::refined::{Refined, VertexParent};
+use crate::subdiv::scheme::PlanOptions;
+use crate::subdiv::stencil::{StencilBuilder, StencilTable, Weight};
 
 /// One row for each vertex of the child.
-pub(in super::super) fn table<W: Weight>(level: &Level, child: &Refined, options: &PlanOptions) -> StencilTable<W> {
+pub(in crate::subdiv) fn table<W: Weight>(level: &Level, child: &Refined, options: &PlanOptions) -> StencilTable<W> {
     let mesh = &level.mesh;
     let n_entries = mesh.n_vertices() + mesh.n_dedges() + 4 * (child.parents.len() - mesh.n_vertices());
     let mut builder = StencilTable::builder(mesh.n_vertices(), child.parents.len(), n_entries);

@@ -7,16 +7,16 @@
 
 use crate::mesh::{DedgeId, VertexId};
 
-use super::super::level::Level;
-use super::super::neighbourhood::Neighbourhood;
-use super::super::refined::{Refined, VertexParent};
-use super::super::rule::Rule;
-use super::super::scheme::{BoundaryStep, Creasing};
-use super::super::sqrt3 as masks;
-use super::super::stencil::{StencilBuilder, StencilTable, Weight};
+use crate::subdiv::level::Level;
+use crate::subdiv::neighbourhood::Neighbourhood;
+use crate::subdiv::refined::{Refined, VertexParent};
+use crate::subdiv::rule::Rule;
+use crate::subdiv::scheme::{BoundaryStep, Creasing};
+use crate::subdiv::sqrt3 as masks;
+use crate::subdiv::stencil::{StencilBuilder, StencilTable, Weight};
 
 /// One row for each vertex of the child.
-pub(in super::super) fn table<W: Weight>(
+pub(in crate::subdiv) fn table<W: Weight>(
     level: &Level,
     child: &Refined,
     step: BoundaryStep,

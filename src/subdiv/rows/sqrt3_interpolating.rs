@@ -2,12 +2,12 @@
 
 use crate::mesh::{DedgeId, DedgeMesh, FaceId, VertexId};
 
-use super::super::refined::{Refined, VertexParent};
-use super::super::sqrt3_interpolating as masks;
-use super::super::stencil::{StencilBuilder, StencilTable, Weight};
+use crate::subdiv::refined::{Refined, VertexParent};
+use crate::subdiv::sqrt3_interpolating as masks;
+use crate::subdiv::stencil::{StencilBuilder, StencilTable, Weight};
 
 /// One row for each vertex of the child.
-pub(in super::super) fn table<W: Weight>(mesh: &DedgeMesh, child: &Refined) -> StencilTable<W> {
+pub(in crate::subdiv) fn table<W: Weight>(mesh: &DedgeMesh, child: &Refined) -> StencilTable<W> {
     let n_entries = mesh.n_vertices() + 12 * (child.parents.len() - mesh.n_vertices());
     let mut builder = StencilTable::builder(mesh.n_vertices(), child.parents.len(), n_entries);
     let mut rows = Rows { mesh, builder: &mut builder, row: Vec::new() };
