@@ -101,6 +101,9 @@ impl Evaluator {
         let n_normals = if plan.options().normals == Normals::None { 0 } else { n };
         assert!(positions.len() == n && normals.len() == n_normals, "one value for each vertex of the last level");
         self.fit(plan);
+        if n_normals == 0 && plan.limit().is_none() {
+            return self.refine_into(plan, control, positions);
+        }
         self.refine(plan, control);
         let limit_positions = plan.options().positions == Positions::Limit;
         match (plan.limit(), &plan.rings) {
@@ -134,11 +137,14 @@ impl Evaluator {
     pub fn evaluate_attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
         assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
         self.fit(plan);
-        self.refine(plan, control);
-        if let Some(limit) = plan.limit().filter(|_| plan.options().positions == Positions::Limit) {
-            self.push_to_limit(limit);
+        match plan.limit().filter(|_| plan.options().positions == Positions::Limit) {
+            Some(limit) => {
+                self.refine(plan, control);
+                self.push_to_limit(limit);
+                unpad(&self.finest, out);
+            }
+            None => self.refine_into(plan, control, out),
         }
-        unpad(&self.finest, out);
     }
 
     /// Makes the buffers fit; does nothing where they do.
@@ -158,18 +164,34 @@ impl Evaluator {
 
     /// From control values to those of the last level, in `finest`.
     fn refine(&mut self, plan: &Plan, control: &[Vec3]) {
+        match self.refine_but_last(plan, control) {
+            Some(last) => apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest),
+            None => pad(control, &mut self.finest),
+        }
+    }
+
+    /// From control values to those of the last level, in `out`.
+    fn refine_into(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+        match self.refine_but_last(plan, control) {
+            Some(last) => {
+                let source = &self.coarse[..last.n_sources()];
+                for_chunks(self.pool.as_ref(), out, |first, out| kernels::apply_positions(last, first, source, out));
+            }
+            None => out.copy_from_slice(control),
+        }
+    }
+
+    /// All steps but the last, whose table is returned; its sources are in `coarse` then. None where there is no step.
+    fn refine_but_last<'p>(&mut self, plan: &'p Plan, control: &[Vec3]) -> Option<&'p StencilTable> {
         assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
-        let Some((last, steps)) = plan.tables().split_last() else {
-            pad(control, &mut self.finest);
-            return;
-        };
+        let (last, steps) = plan.tables().split_last()?;
         pad(control, &mut self.coarse);
         for table in steps {
             let (source, target) = (&self.coarse[..table.n_sources()], &mut self.fine[..table.n_rows()]);
             apply(self.pool.as_ref(), table, source, target);
             std::mem::swap(&mut self.coarse, &mut self.fine);
         }
-        apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest);
+        Some(last)
     }
 
     /// Replaces the values in `finest` by where they go.
@@ -187,7 +209,7 @@ impl Evaluator {
 }
 
 fn apply(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
-    for_chunks(pool, out, |first, out| table.apply_lanes(first, source, out));
+    for_chunks(pool, out, |first, out| kernels::apply_lanes(table, first, source, out));
 }
 
 /// Runs `work` over chunks of `out`, each with the index of its first place, on as many threads as there are.

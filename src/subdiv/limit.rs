@@ -13,7 +13,7 @@ use super::neighbourhood::Neighbourhood;
 use super::rule::Rule;
 use super::runs::Run;
 use super::scheme::{BoundaryStep, PlanOptions, Scheme};
-use super::stencil::Weight;
+use super::stencil::{Weight, all_below};
 use super::{loop_scheme, sqrt3};
 
 /// Masks of a vertex inside the surface over its ring, counter-clockwise.
@@ -74,6 +74,20 @@ impl<W: Weight> LimitTable<W> {
         (&self.sources[entry..entry + len], &self.weights[run.first_weight as usize..][..len])
     }
 
+    /// Whether these are the weights of a vertex inside the surface with six neighbours.
+    #[inline]
+    pub(super) fn is_regular(weights: &[[W; 3]]) -> bool {
+        const H: f64 = 0.866_025_403_784_438_6;
+        const TANGENTS: [[f64; 2]; 7] =
+            [[0.0, 0.0], [1.0, 0.0], [0.5, H], [-0.5, H], [-1.0, 0.0], [-0.5, -H], [0.5, -H]];
+        weights.len() == 7
+            && weights
+                .iter()
+                .zip(TANGENTS)
+                .all(|(w, t)| (w[1].to_f64() - t[0]).abs() < 1e-6 && (w[2].to_f64() - t[1]).abs() < 1e-6)
+            && weights[2..].iter().all(|w| w[0] == weights[1][0])
+    }
+
     /// The masks of all vertices of a level. `steps` are the steps that led to it.
     pub(super) fn build(level: &Level, options: &PlanOptions, steps: u32) -> LimitTable<W> {
         let n_rows = level.mesh.n_vertices();
@@ -89,6 +103,8 @@ impl<W: Weight> LimitTable<W> {
             rows.vertex(vertex);
             rows.write();
         }
+        // The kernels rely on it.
+        assert!(all_below(&rows.table.sources, n_rows), "a row names a vertex that does not exist");
         rows.table
     }
 }

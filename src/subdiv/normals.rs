@@ -1,15 +1,20 @@
 //! Vertex normals: area-weighted face normals, gathered around each vertex in one-ring order.
 //!
-//! A cross product of two sides is twice the area times the unit normal, so the plain sum is the weighted one.
-//! Gathering, and not scattering, gives each sum one order whatever the number of threads. Each face is worked out
-//! three times, once from each corner: that costs less than to store it and fetch it back from a distant cache.
+//! A cross product of two sides is twice the area times the unit normal, so the plain sum over the faces around a vertex
+//! is the weighted one. That sum is the vector area of the polygon that they fill, which depends on its outline alone: a
+//! vertex inside the surface drops out, and the outline is taken two sides at a time as quadrilaterals, of which the cross
+//! product of the diagonals is twice the vector area. Six triangles cost two cross products.
+//!
+//! Gathering, and not scattering, gives each sum one order whatever the number of threads.
 
 use glam::Vec3;
 
 use crate::math::ops;
 use crate::mesh::VertexId;
 
+use super::kernels::fetch;
 use super::lane::Lane;
+use super::stencil::all_below;
 
 /// The normal where none is defined: the triangles around the vertex have no area, or a position is not finite.
 const FALLBACK: Vec3 = Vec3::Y;
@@ -22,8 +27,8 @@ const HUGE: f32 = 1e30;
 /// Vertices whose sums are made unit vectors together.
 pub(super) const BLOCK: usize = 64;
 
-/// The one-ring of each vertex, in compressed form. Inside the surface the first neighbour stands again at the end, so
-/// that successive entries are the triangles there as well as on the boundary.
+/// The outline of the faces around each vertex, in compressed form: the one-ring inside the surface; on the boundary the
+/// vertex itself and then its ring.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Rings {
     pub(super) neighbours: Vec<u32>,
@@ -52,15 +57,17 @@ impl Rings {
         let mut runs: Vec<RingRun> = Vec::new();
         for vertex in (0..n_vertices as u32).map(VertexId) {
             let first_entry = neighbours.len();
-            neighbours.extend(ring(vertex).map(|v| v.0));
-            if !is_boundary(vertex) {
-                neighbours.push(neighbours[first_entry]);
+            if is_boundary(vertex) {
+                neighbours.push(vertex.0);
             }
+            neighbours.extend(ring(vertex).map(|v| v.0));
             let len = (neighbours.len() - first_entry) as u32;
             if runs.last().is_none_or(|run| run.len != len) {
                 runs.push(RingRun { first_vertex: vertex.0, first_entry: first_entry as u32, len });
             }
         }
+        // The kernels rely on it.
+        assert!(all_below(&neighbours, n_vertices), "a ring names a vertex that does not exist");
         Rings { neighbours, runs, n_vertices }
     }
 
@@ -71,60 +78,114 @@ impl Rings {
 
     /// Unit normals of the vertices from `first` on, one for each place in `out`. `positions` are those of all.
     pub(super) fn normals(&self, first: usize, positions: &[Lane], out: &mut [Vec3]) {
-        let mut sums = [Lane::default(); BLOCK];
-        let mut run = self.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
-        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let (start, end) = (first + block * BLOCK, first + block * BLOCK + out.len());
-            let mut vertex = start;
-            while vertex < end {
-                let RingRun { first_vertex, first_entry, len } = self.runs[run];
-                let run_end = self.runs.get(run + 1).map_or(self.n_vertices, |next| next.first_vertex as usize);
-                let stop = run_end.min(end);
-                let entry = first_entry as usize + (vertex - first_vertex as usize) * len as usize;
-                let rings = &self.neighbours[entry..entry + (stop - vertex) * len as usize];
-                let sums = &mut sums[vertex - start..stop - start];
-                let centres = &positions[vertex..stop];
-                for ((sum, &centre), ring) in sums.iter_mut().zip(centres).zip(rings.chunks_exact(len as usize)) {
-                    *sum = sum_of(centre, ring, positions);
-                }
-                vertex = stop;
-                if stop == run_end {
-                    run += 1;
-                }
-            }
-            unit_vectors(&sums[..out.len()], out);
-        }
+        assert_eq!(positions.len(), self.n_vertices, "one position for each vertex");
+        assert!(first + out.len() <= self.n_vertices, "at most one normal for each vertex");
+        normals(self, first, positions, out);
     }
 }
 
-/// The cross products, as z, x, y, of successive sides from the centre. A ring has two entries or more.
-///
-/// The loop stays a loop: unrolled, the compiler tears the lanes apart.
+#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
+fn normals(rings: &Rings, first: usize, positions: &[Lane], out: &mut [Vec3]) {
+    let mut sums = Sums::default();
+    let mut run = rings.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
+    for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+        let (start, end) = (first + block * BLOCK, first + block * BLOCK + out.len());
+        let mut vertex = start;
+        while vertex < end {
+            let RingRun { first_vertex, first_entry, len } = rings.runs[run];
+            let run_end = rings.runs.get(run + 1).map_or(rings.n_vertices, |next| next.first_vertex as usize);
+            let stop = run_end.min(end);
+            let len = len as usize;
+            let entry = first_entry as usize + (vertex - first_vertex as usize) * len;
+            let outlines = &rings.neighbours[entry..entry + (stop - vertex) * len];
+            if let (6, (outlines, _)) = (len, outlines.as_chunks::<6>()) {
+                for (i, outline) in (vertex - start..stop - start).zip(outlines) {
+                    sums.set(i, vector_area(outline, positions));
+                }
+            } else {
+                for (i, outline) in (vertex - start..stop - start).zip(outlines.chunks_exact(len)) {
+                    sums.set(i, vector_area(outline, positions));
+                }
+            }
+            vertex = stop;
+            if stop == run_end {
+                run += 1;
+            }
+        }
+        sums.unit_vectors(out);
+    }
+}
+
+/// Twice the vector area of a closed outline of two vertices or more, as z, x, y.
 #[inline(always)]
-fn sum_of(centre: Lane, ring: &[u32], positions: &[Lane]) -> Lane {
-    let mut last = positions[ring[0] as usize].minus(centre);
+fn vector_area(outline: &[u32], positions: &[Lane]) -> Lane {
+    let corner = fetch(positions, outline[0]);
     let mut sum = Lane::default();
-    for &neighbour in &ring[1..] {
-        let side = positions[neighbour as usize].minus(centre);
-        sum = sum.plus(last.cross_zxy(side));
-        last = side;
+    let mut i = 1;
+    // From the corner over the next two to the third.
+    while i + 2 < outline.len() {
+        let (a, b) = (fetch(positions, outline[i]), fetch(positions, outline[i + 1]));
+        let c = fetch(positions, outline[i + 2]);
+        sum = sum.plus(b.minus(corner).cross_zxy(c.minus(a)));
+        i += 2;
+    }
+    if i + 1 < outline.len() {
+        let (a, b) = (fetch(positions, outline[i]), fetch(positions, outline[i + 1]));
+        sum = sum.plus(a.minus(corner).cross_zxy(b.minus(corner)));
     }
     sum
 }
 
-/// At most [`BLOCK`] sums as z, x, y, and as many places in `out`.
-#[inline(always)]
-pub(super) fn unit_vectors(sums: &[Lane], out: &mut [Vec3]) {
-    let mut squared = [1.0_f32; BLOCK];
-    for (squared, sum) in squared.iter_mut().zip(sums) {
-        let [z, x, y, _] = sum.0.to_array();
-        *squared = x * x + y * y + z * z;
+/// Vectors that are to become unit vectors, coordinate by coordinate: eight square roots cost as much as one.
+pub(super) struct Sums {
+    x: [f32; BLOCK],
+    y: [f32; BLOCK],
+    z: [f32; BLOCK],
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Sums { x: [1.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK] }
     }
-    let inverse = squared.map(|squared| 1.0 / ops::sqrt(squared));
-    for (i, (out, sum)) in out.iter_mut().zip(sums).enumerate() {
+}
+
+impl Sums {
+    /// Sets one of at most [`BLOCK`] from a lane that holds z, x, y.
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, sum: Lane) {
         let [z, x, y, _] = sum.0.to_array();
-        let sum = Vec3::new(x, y, z);
-        *out = if squared[i] > TINY && squared[i] < HUGE { sum * inverse[i] } else { unit_of_extreme(sum) };
+        (self.x[i], self.y[i], self.z[i]) = (x, y, z);
+    }
+
+    /// Writes the first `out.len()` of them, at most [`BLOCK`], as unit vectors.
+    #[inline(always)]
+    pub(super) fn unit_vectors(&self, out: &mut [Vec3]) {
+        let mut inverse = [0.0_f32; BLOCK];
+        let mut extreme = false;
+        for i in 0..BLOCK {
+            let (x, y, z) = (self.x[i], self.y[i], self.z[i]);
+            let squared = x * x + y * y + z * z;
+            extreme |= !(squared > TINY && squared < HUGE);
+            inverse[i] = 1.0 / ops::sqrt(squared);
+        }
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = Vec3::new(self.x[i] * inverse[i], self.y[i] * inverse[i], self.z[i] * inverse[i]);
+        }
+        if extreme {
+            self.settle_extremes(out);
+        }
+    }
+
+    /// Those whose squared length underflows or overflows, or that have none.
+    #[cold]
+    fn settle_extremes(&self, out: &mut [Vec3]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let sum = Vec3::new(self.x[i], self.y[i], self.z[i]);
+            let squared = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+            if !(squared > TINY && squared < HUGE) {
+                *out = unit_of_extreme(sum);
+            }
+        }
     }
 }
 
@@ -142,12 +203,14 @@ fn unit_of_extreme(sum: Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{FALLBACK, Lane, unit_vectors};
+    use super::{FALLBACK, Lane, Sums};
     use glam::Vec3;
 
     fn unit(sum: Vec3) -> Vec3 {
         let mut out = [Vec3::ZERO];
-        unit_vectors(&[Lane::from(Vec3::new(sum.z, sum.x, sum.y))], &mut out);
+        let mut sums = Sums::default();
+        sums.set(0, Lane::from(Vec3::new(sum.z, sum.x, sum.y)));
+        sums.unit_vectors(&mut out);
         out[0]
     }
 

@@ -9,8 +9,6 @@ use glam::{DVec3, Vec3};
 
 use crate::mesh::{DedgeMesh, VertexId};
 
-use super::kernels;
-use super::lane::Lane;
 use super::mask::{CurveMask, RingMask};
 use super::runs::{Run, pieces};
 
@@ -190,15 +188,6 @@ impl<W: Weight> StencilTable<W> {
     }
 }
 
-impl StencilTable<f32> {
-    /// Computes the rows from `first_row` on, one for each place in `out`, on lanes.
-    pub(super) fn apply_lanes(&self, first_row: usize, source: &[Lane], out: &mut [Lane]) {
-        assert_eq!(source.len(), self.n_sources, "one value for each source");
-        assert!(first_row + out.len() <= self.n_rows, "at most one value for each row");
-        kernels::apply(self, first_row, source, out);
-    }
-}
-
 /// Collects rows.
 pub(super) struct StencilBuilder<W> {
     n_rows_expected: usize,
@@ -260,6 +249,13 @@ impl<W: Weight> StencilBuilder<W> {
 
     pub(super) fn finish(self) -> StencilTable<W> {
         debug_assert_eq!(self.table.n_rows, self.n_rows_expected);
+        // The kernels rely on it.
+        assert!(all_below(&self.table.sources, self.table.n_sources), "a row names a source that does not exist");
         self.table
     }
+}
+
+/// Whether all numbers are below a bound: branchless, so that it costs no more than reading them.
+pub(super) fn all_below(numbers: &[u32], bound: usize) -> bool {
+    numbers.is_empty() || (numbers.iter().fold(0, |largest, &n| n.max(largest)) as usize) < bound
 }
