@@ -4,7 +4,8 @@
 use std::error::Error;
 use std::io::Write;
 
-use londra::io::obj;
+use glam::{DVec3, Vec3};
+use londra::io::{Soup, obj};
 use londra::mesh::DedgeMesh;
 use londra::mesh::shapes::icosahedron;
 use londra::subdiv::{Evaluator, Plan, Scheme};
@@ -13,8 +14,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let (positions, triangles) = match arguments.next() {
         Some(path) => {
-            let mesh = obj::read(&std::fs::read(&path)?)?;
-            (mesh.positions, mesh.triangles)
+            let soup = obj::read(&std::fs::read(&path)?)?;
+            let positions = soup.positions.iter().map(|&p| DVec3::from(p).as_vec3()).collect();
+            (positions, soup.triangles())
         }
         None => {
             let shape = icosahedron();
@@ -32,7 +34,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let surface = evaluator.evaluate(&plan, &positions);
 
     eprintln!("{} vertices, {} faces", plan.n_vertices(), plan.n_faces());
-    let text = obj::write(surface.positions, Some(surface.normals), surface.indices.as_chunks().0);
+    let doubles = |vectors: &[Vec3]| vectors.iter().map(|v| v.as_dvec3().to_array()).collect::<Vec<_>>();
+    let soup = Soup::from_triangles(doubles(surface.positions), surface.indices.as_chunks().0);
+    let text = obj::write(&soup, Some(&doubles(surface.normals)))?;
     std::io::stdout().lock().write_all(text.as_bytes())?;
     Ok(())
 }

@@ -40,7 +40,7 @@ const WORDS: [(&[&str], &[&str], &str); 6] = [
     (&["winit::"], &["app", "cli"], "the window is one of several hosts"),
     (&["egui::", "egui_winit::", "egui_wgpu::"], &["app", "cli"], "the window is one of several hosts"),
     (&["wgpu::"], &["render", "app"], "only render (and its glue in app) knows the graphics device"),
-    (&["gltf_json::", "gltf::"], &["export"], "only export knows glTF"),
+    (&["gltf_json::", "gltf::"], &["export", "io"], "only export and io know glTF"),
 ];
 
 /// Layers whose numbers are hashed.
