@@ -7,12 +7,15 @@
 //! Masks (weights from a neighbourhood, one file for each scheme, with its paper) and the splitting of faces (`thirds`,
 //! `quarters`, `corners`, `dual_split`) are apart; `rows` brings them together into stencils.
 
+mod adaptive;
 pub mod butterfly;
 pub mod catmull_clark;
 mod corners;
+mod disk;
 pub mod doo_sabin;
 mod dual_split;
 mod evaluate;
+mod flatness;
 mod kernels;
 mod lane;
 mod level;
@@ -36,7 +39,10 @@ mod steps;
 mod tags;
 mod thirds;
 
+pub use adaptive::Candidate;
+pub use disk::PlanFileError;
 pub use evaluate::{Evaluator, Surface, evaluate_once};
+pub use flatness::flat_faces;
 pub use limit::{LimitMask, LimitTable};
 pub use mask::{CurveMask, RingMask};
 pub use plan::{DoublePlan, MAX_FACES, Plan, PlanError};

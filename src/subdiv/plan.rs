@@ -49,6 +49,12 @@ pub enum PlanError {
         /// The scheme asked for.
         scheme: Scheme,
     },
+    /// Adaptive refinement is that of √3, without frozen faces.
+    #[error("adaptive refinement is for sqrt3 without frozen faces; {} was asked for", scheme.name())]
+    NotAdaptive {
+        /// The scheme asked for.
+        scheme: Scheme,
+    },
     /// A polygon mesh for a scheme that refines triangles.
     #[error("{} refines triangles only; cut the polygons into triangles first", scheme.name())]
     NotTriangles {
@@ -192,6 +198,20 @@ impl Plan {
             }
         }
         Ok(plan)
+    }
+
+    /// The [`fingerprint`](Plan::fingerprint) that [`Plan::build_with`] would give, without building.
+    pub fn fingerprint_of(control: &DedgeMesh, tags: &Tags, options: &PlanOptions) -> u64 {
+        if options.scheme.is_triangular() {
+            fingerprint(control.n_vertices(), &[], control.indices(), tags, options)
+        } else {
+            Plan::fingerprint_of_polygons(&PolygonMesh::from(control), tags, options)
+        }
+    }
+
+    /// The same for [`Plan::build_polygons`].
+    pub fn fingerprint_of_polygons(control: &PolygonMesh, tags: &Tags, options: &PlanOptions) -> u64 {
+        fingerprint(control.n_vertices(), &control.offsets, &control.origin, tags, options)
     }
 
     /// The tables of a plan, one for each step, with weights in double precision: for oracles, not for frames.
@@ -385,7 +405,7 @@ pub(super) fn check(options: &PlanOptions, tags: &Tags) -> Result<(), PlanError>
     Ok(())
 }
 
-fn fingerprint(n_vertices: usize, offsets: &[u32], corners: &[u32], tags: &Tags, options: &PlanOptions) -> u64 {
+pub(super) fn fingerprint(n_vertices: usize, offsets: &[u32], corners: &[u32], tags: &Tags, options: &PlanOptions) -> u64 {
     let mut hash = Fnv64::new();
     hash.bytes(options.scheme.name().as_bytes());
     hash.u32(options.levels);
