@@ -14,12 +14,14 @@
 mod reference;
 #[path = "support/tables.rs"]
 mod tables;
+#[path = "support/walk.rs"]
+mod walk;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use londra::mesh::{DedgeId, PolygonMesh, VertexId};
+use londra::mesh::{PolygonMesh, VertexId};
 use londra::subdiv::{
     BoundaryRule, Creasing, DoublePlan, LimitTable, Normals, Plan, PlanOptions, Positions, Scheme, evaluate_once,
 };
@@ -168,7 +170,13 @@ fn check(case: &Case, scheme: Scheme, worst: &mut Worst) -> Outcome {
     let matched: Vec<(usize, DVec3, usize)> = if full.is_object() {
         let theirs = points(&full["vertices"]);
         let mesh = reference::polygons(theirs.len(), &full["faces"]);
-        let matching = walked(&mesh, &theirs, &ours, case.control().len(), is_checked, tolerance)?;
+        let matching = walk::pair(
+            (&mesh, &theirs),
+            (&ours.mesh, &ours.exact),
+            case.control().len(),
+            is_checked,
+            tolerance * ours.size,
+        )?;
         theirs.into_iter().enumerate().map(|(i, p)| (i, p, matching[i] as usize)).collect()
     } else {
         let numbers = list(&case.value["sample"]["indices"]).iter().map(count);
@@ -268,109 +276,6 @@ fn check_counts(digest: &Value, ours: &Ours) -> Outcome {
     Ok(())
 }
 
-/// Our vertices by one coordinate, to find near ones.
-struct ByX<'a> {
-    points: &'a [DVec3],
-    order: Vec<u32>,
-}
-
-impl<'a> ByX<'a> {
-    fn new(points: &'a [DVec3]) -> Self {
-        let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        order.sort_by(|&a, &b| points[a as usize].x.total_cmp(&points[b as usize].x));
-        ByX { points, order }
-    }
-
-    /// All within a distance, nearest first.
-    fn near(&self, p: DVec3, distance: f64) -> Vec<u32> {
-        let from = self.order.partition_point(|&v| self.points[v as usize].x < p.x - distance);
-        let span = self.order[from..].iter().take_while(|&&v| self.points[v as usize].x <= p.x + distance);
-        let away = |v: u32| self.points[v as usize].distance(p);
-        let mut near: Vec<u32> = span.copied().filter(|&v| away(v) <= distance).collect();
-        near.sort_by(|&a, &b| away(a).total_cmp(&away(b)));
-        near
-    }
-}
-
-/// For each of their vertices ours, found by walking both meshes from a face that lies in the same place, and so for each
-/// component. All faces are compared on the way, and no vertex is used twice.
-fn walked(
-    mesh: &PolygonMesh,
-    theirs: &[DVec3],
-    ours: &Ours,
-    n_control: usize,
-    is_checked: impl Fn(usize) -> bool,
-    tolerance: f64,
-) -> Result<Vec<u32>, String> {
-    const NONE: u32 = u32::MAX;
-    let by_x = ByX::new(&ours.exact);
-    let near = |v: VertexId| by_x.near(theirs[v.index()], tolerance * ours.size);
-    // The same side in the same place: origin, target and what comes before.
-    let same = |side: DedgeId| -> Option<DedgeId> {
-        let (origins, targets, before) =
-            (near(mesh.origin(side)), near(mesh.target(side)), near(mesh.origin(mesh.prev(side))));
-        let sides = origins.iter().flat_map(|&v| ours.mesh.outgoing_dedges(VertexId(v)));
-        sides.into_iter().find(|&d| {
-            targets.contains(&ours.mesh.target(d).0) && before.contains(&ours.mesh.origin(ours.mesh.prev(d)).0)
-        })
-    };
-    let mut vertices = vec![NONE; theirs.len()];
-    let mut used = vec![false; ours.exact.len()];
-    let mut sides = vec![NONE; mesh.n_dedges()];
-    // Faces whose corners all follow published rules come first as a start. Where there are none, so few are the faces, a
-    // control vertex on the boundary is one: libraries keep the numbers of those, and it has but one first side.
-    for round in 0..2 {
-        for face in mesh.faces() {
-            let corners = mesh.corners(face);
-            let mut start = DedgeId(mesh.sides(face).next().expect("three").0);
-            if sides[start.index()] != NONE || (round == 0 && !corners.iter().all(|&v| is_checked(v as usize))) {
-                continue;
-            }
-            let mut here = same(start);
-            if here.is_none() && round == 1 {
-                let control = |v: &&u32| (**v as usize) < n_control && mesh.is_boundary_vertex(VertexId(**v));
-                let Some(&vertex) = corners.iter().find(control) else { continue };
-                start = mesh.outgoing(VertexId(vertex));
-                here = Some(ours.mesh.outgoing(VertexId(vertex)));
-            }
-            let Some(here) = here else {
-                let at: Vec<_> = corners.iter().map(|&v| theirs[v as usize]).collect();
-                return Err(format!("their face {face} at {at:?} is none of ours"));
-            };
-            let mut open = vec![(start, here)];
-            while let Some((theirs, ours_side)) = open.pop() {
-                if sides[theirs.index()] != NONE {
-                    ensure!(sides[theirs.index()] == ours_side.0, "faces differ at their side {theirs}");
-                    continue;
-                }
-                let n = mesh.corners(mesh.face(theirs)).len();
-                let found = ours.mesh.corners(ours.mesh.face(ours_side)).len();
-                ensure!(n == found, "a face of {n} corners at their side {theirs} has {found} of ours");
-                let (mut theirs, mut ours_side) = (theirs, ours_side);
-                for _ in 0..n {
-                    sides[theirs.index()] = ours_side.0;
-                    let (a, b) = (mesh.origin(theirs), ours.mesh.origin(ours_side));
-                    if vertices[a.index()] == NONE {
-                        ensure!(!std::mem::replace(&mut used[b.index()], true), "our vertex {b} is met twice");
-                        vertices[a.index()] = b.0;
-                    }
-                    ensure!(vertices[a.index()] == b.0, "their vertex {a} is two of ours");
-                    match (mesh.twin(theirs), ours.mesh.twin(ours_side)) {
-                        (Some(a), Some(b)) => open.push((a, b)),
-                        (None, None) => {}
-                        _ => return Err(format!("a boundary differs at their side {theirs}")),
-                    }
-                    (theirs, ours_side) = (mesh.next(theirs), ours.mesh.next(ours_side));
-                }
-            }
-        }
-    }
-    match vertices.iter().position(|&v| v == NONE) {
-        Some(v) => Err(format!("no face around their vertex {v} is ours")),
-        None => Ok(vertices),
-    }
-}
-
 /// The nearest of ours for each of a sample, each taken once. Vertices beyond the published rules may have none.
 fn nearest(
     sample: &[(usize, DVec3)],
@@ -379,7 +284,7 @@ fn nearest(
     distance: f64,
     worst: &mut Worst,
 ) -> Result<Vec<(usize, DVec3, usize)>, String> {
-    let by_x = ByX::new(&ours.exact);
+    let by_x = walk::ByX::new(&ours.exact);
     let mut taken = BTreeSet::new();
     let mut all = Vec::new();
     for &(i, p) in sample {
