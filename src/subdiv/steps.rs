@@ -156,7 +156,7 @@ pub fn levels_of(control: &DedgeMesh, tags: &Tags, options: &PlanOptions) -> Res
     Ok(meshes)
 }
 
-fn check_size(options: &PlanOptions, n_control_faces: usize, n_active: u32) -> Result<(), PlanError> {
+pub(super) fn check_size(options: &PlanOptions, n_control_faces: usize, n_active: u32) -> Result<(), PlanError> {
     let growth = options.scheme.faces_per_face().unwrap_or(1);
     let n_faces = growth.checked_pow(options.levels).and_then(|n| n.checked_mul(u64::from(n_active)));
     match n_faces {
