@@ -183,7 +183,7 @@ fn frozen_faces_with_creases_and_holes_break_the_mesh() {
     let tags = Tags {
         frozen: vec![FaceId(0), FaceId(1), FaceId(9), FaceId(20)],
         creases: vec![(VertexId(14), VertexId(15), 10.0), (VertexId(15), VertexId(16), 1.5)],
-        holes: vec![FaceId(44)],
+        holes: vec![FaceId(40), FaceId(44)],
         ..Tags::default()
     };
     for levels in 0..=4 {

@@ -113,7 +113,8 @@ fn damage_is_not_found() {
 fn numbers_out_of_range_are_read_out_of_place() {
     let shape = grid_with_hole();
     let mesh = shape.mesh().expect("a grid");
-    let options = PlanOptions { positions: Positions::Limit, normals: Normals::Limit, ..PlanOptions::new(Scheme::Loop, 1) };
+    let options =
+        PlanOptions { positions: Positions::Limit, normals: Normals::Limit, ..PlanOptions::new(Scheme::Loop, 1) };
     for plan in [
         Plan::build(&mesh, Scheme::Sqrt3, 1).expect("small"),
         Plan::build_with(&mesh, &Tags::default(), &options).expect("small"),
@@ -122,7 +123,8 @@ fn numbers_out_of_range_are_read_out_of_place() {
         let mut rng = Rng::new(11);
         for _ in 0..3000 {
             let mut altered = bytes.clone();
-            let at = 40 + 4 * ((rng.between(0.0, 1.0) * ((bytes.len() - 40) / 4) as f32) as usize % ((bytes.len() - 40) / 4));
+            let at = 40
+                + 4 * ((rng.between(0.0, 1.0) * ((bytes.len() - 40) / 4) as f32) as usize % ((bytes.len() - 40) / 4));
             let value = [0_u32, 1, 7, 1000, u32::MAX, 1 << 31][(rng.between(0.0, 6.0) as usize) % 6];
             altered[at..at + 4].copy_from_slice(&value.to_le_bytes());
             let checksum = xxhash_rust::xxh3::xxh3_64(&altered[40..]);

@@ -405,7 +405,13 @@ pub(super) fn check(options: &PlanOptions, tags: &Tags) -> Result<(), PlanError>
     Ok(())
 }
 
-pub(super) fn fingerprint(n_vertices: usize, offsets: &[u32], corners: &[u32], tags: &Tags, options: &PlanOptions) -> u64 {
+pub(super) fn fingerprint(
+    n_vertices: usize,
+    offsets: &[u32],
+    corners: &[u32],
+    tags: &Tags,
+    options: &PlanOptions,
+) -> u64 {
     let mut hash = Fnv64::new();
     hash.bytes(options.scheme.name().as_bytes());
     hash.u32(options.levels);

@@ -35,8 +35,12 @@ pub(super) fn triangles(control: &DedgeMesh, tags: &Tags, options: &PlanOptions)
     let (mesh, vertices) = if faces.iter().enumerate().all(|(i, &f)| i as u32 == f) && faces.len() == n_faces {
         (control.clone(), None)
     } else {
-        let corners = faces.iter().map(|&f| control.corners(FaceId(f)).map(|v| v.0)).collect::<Vec<_>>();
-        let (corners, vertices) = compact(control.n_vertices(), corners.as_flattened());
+        let sides = faces.iter().flat_map(|&f| [0, 1, 2].map(|k| FaceId(f).dedge(k)));
+        let is_there = |d: DedgeId| !holes[d.face().index()];
+        let fans = |v: VertexId| {
+            fans(&control.outgoing_dedges(v).collect::<Vec<_>>(), control.is_boundary_vertex(v), is_there)
+        };
+        let (corners, vertices) = renumber(control.n_vertices(), control.n_dedges(), sides, fans);
         let mesh = DedgeMesh::from_triangles(vertices.len(), corners.as_chunks().0).map_err(TagError::Holes)?;
         (mesh, Some(vertices))
     };
@@ -73,8 +77,12 @@ pub(super) fn polygons(control: &PolygonMesh, tags: &Tags, options: &PlanOptions
         (control.clone(), None)
     } else {
         let sizes: Vec<u32> = faces.iter().map(|&f| control.corners(FaceId(f)).len() as u32).collect();
-        let corners: Vec<u32> = faces.iter().flat_map(|&f| control.corners(FaceId(f)).iter().copied()).collect();
-        let (corners, vertices) = compact(control.n_vertices(), &corners);
+        let sides = faces.iter().flat_map(|&f| control.sides(FaceId(f)));
+        let is_there = |d: DedgeId| !holes[control.face(d).index()];
+        let fans = |v: VertexId| {
+            fans(&control.outgoing_dedges(v).collect::<Vec<_>>(), control.is_boundary_vertex(v), is_there)
+        };
+        let (corners, vertices) = renumber(control.n_vertices(), control.n_dedges(), sides, fans);
         (PolygonMesh::from_faces(vertices.len(), &sizes, &corners).map_err(TagError::Holes)?, Some(vertices))
     };
     let single = (0..mesh.n_vertices() as u32).map(VertexId).filter(|&v| {
@@ -102,14 +110,36 @@ fn marked(faces: &[FaceId], n_faces: usize) -> Result<Vec<bool>, TagError> {
     Ok(marked)
 }
 
-/// Corners renumbered so that every vertex is used, and for each vertex its old number; order is kept.
-fn compact(n_vertices: usize, corners: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut used = vec![false; n_vertices];
-    corners.iter().for_each(|&v| used[v as usize] = true);
-    let vertices: Vec<u32> = (0..n_vertices as u32).filter(|&v| used[v as usize]).collect();
-    let mut number = vec![0_u32; n_vertices];
-    vertices.iter().enumerate().for_each(|(i, &v)| number[v as usize] = i as u32);
-    (corners.iter().map(|&v| number[v as usize]).collect(), vertices)
+/// The fans of faces that are left around a vertex, each as its outgoing directed edges counter-clockwise. `around` are all
+/// that start there.
+fn fans(around: &[DedgeId], is_boundary: bool, is_there: impl Fn(DedgeId) -> bool) -> Vec<Vec<DedgeId>> {
+    let mut fans: Vec<Vec<DedgeId>> = around.chunk_by(|&a, &b| is_there(a) == is_there(b)).map(<[_]>::to_vec).collect();
+    // Inside the surface the last one goes on in the first.
+    if !is_boundary && fans.len() > 1 && is_there(around[0]) && is_there(around[around.len() - 1]) {
+        let first = std::mem::take(&mut fans[0]);
+        fans.last_mut().into_iter().for_each(|last| last.extend(&first));
+    }
+    fans.retain(|fan| fan.first().is_some_and(|&d| is_there(d)));
+    fans
+}
+
+/// The corners of the faces that are left, by new vertex numbers, and for each new vertex its control vertex, ascending.
+/// Where holes leave several fans around a vertex, touching in nothing else, each gets a vertex of its own.
+fn renumber(
+    n_vertices: usize,
+    n_dedges: usize,
+    sides: impl Iterator<Item = DedgeId>,
+    fans: impl Fn(VertexId) -> Vec<Vec<DedgeId>>,
+) -> (Vec<u32>, Vec<u32>) {
+    let mut vertices = Vec::new();
+    let mut number = vec![0_u32; n_dedges];
+    for vertex in 0..n_vertices as u32 {
+        for fan in fans(VertexId(vertex)) {
+            fan.iter().for_each(|side| number[side.index()] = vertices.len() as u32);
+            vertices.push(vertex);
+        }
+    }
+    (sides.map(|side| number[side.index()]).collect(), vertices)
 }
 
 /// Tags of edges and vertices that are known to fit the control mesh.
@@ -150,19 +180,23 @@ impl<'a> EdgeTags<'a> {
         target: impl Fn(DedgeId) -> VertexId,
     ) -> Sharpness {
         let mut sharpness = Sharpness::default();
-        let number = |control: VertexId| match vertices {
-            None => Some(control),
-            Some(vertices) => vertices.binary_search(&control.0).ok().map(|i| VertexId(i as u32)),
+        // A control vertex may have become several, or none.
+        let numbers = |control: VertexId| match vertices {
+            None => control.0..control.0 + 1,
+            Some(vertices) => {
+                let end = |bound: u32| vertices.partition_point(|&v| v < bound) as u32;
+                end(control.0)..end(control.0 + 1)
+            }
         };
         let value = |s: f32| if s >= INFINITE_SHARPNESS { f32::INFINITY } else { s };
         if !self.0.creases.is_empty() {
             sharpness.dedges = vec![0.0; twin.len()];
             for &(a, b, s) in &self.0.creases {
-                let (Some(a), Some(b)) = (number(a), number(b)) else { continue };
-                let side = outgoing(a).into_iter().find(|&d| target(d) == b);
-                let other = outgoing(b).into_iter().find(|&d| target(d) == a);
-                for dedge in side.into_iter().chain(other) {
-                    sharpness.dedges[dedge.index()] = value(s);
+                for (from, to) in [(a, b), (b, a)] {
+                    let sides = numbers(from).flat_map(|v| outgoing(VertexId(v)));
+                    for side in sides.filter(|&d| numbers(to).contains(&target(d).0)) {
+                        sharpness.dedges[side.index()] = value(s);
+                    }
                 }
             }
         }
@@ -170,9 +204,7 @@ impl<'a> EdgeTags<'a> {
         if !self.0.corners.is_empty() || !single.is_empty() {
             sharpness.vertices = vec![0.0; n_vertices];
             for &(vertex, s) in &self.0.corners {
-                if let Some(vertex) = number(vertex) {
-                    sharpness.vertices[vertex.index()] = value(s);
-                }
+                numbers(vertex).for_each(|v| sharpness.vertices[v as usize] = value(s));
             }
             single.into_iter().for_each(|v| sharpness.vertices[v.index()] = f32::INFINITY);
         }
