@@ -8,6 +8,7 @@
 //! `quarters`, `corners`, `dual_split`) are apart; `rows` brings them together into stencils.
 
 mod adaptive;
+mod batch;
 pub mod butterfly;
 pub mod catmull_clark;
 mod corners;
