@@ -113,34 +113,50 @@ impl<W: Weight> Rows<'_, W> {
 
     /// A third of the way along a side that is cut, from its near end.
     fn third(&mut self, dedge: DedgeId, near: VertexId, far: VertexId) {
-        let mesh = &self.level.mesh;
-        let mask = masks::BOUNDARY_POINT;
         if self.level.is_plain() {
-            let is_first = mesh.origin(dedge) == near;
-            self.builder.curve(mesh, near, if is_first { mask } else { mask.reversed() });
+            let is_first = self.level.mesh.origin(dedge) == near;
+            let mask = masks::BOUNDARY_POINT;
+            self.builder.curve(&self.level.mesh, near, if is_first { mask } else { mask.reversed() });
             return;
         }
-        self.here.load(self.level, near, self.creasing);
-        let before = if self.level.is_fixed(near) { None } else { self.here.onward(far.0) };
-        // A sharpness below one: so much of the curve, the rest of the smooth surface.
-        let sharp = f64::from(self.level.edge_sharpness(dedge).min(1.0));
-        let smooth = (1.0 - sharp) / 3.0;
-        // Where the curve ends, the point before is the mirror image of the far end.
-        let (centre, after) = if before.is_some() {
-            (mask.centre, mask.after)
-        } else {
-            (mask.centre + 2.0 * mask.before, mask.after - mask.before)
-        };
-        self.builder.entry(near.0, sharp * centre + smooth);
-        self.builder.entry(far.0, sharp * after);
-        if let Some(before) = before {
-            self.builder.entry(before, sharp * mask.before);
-        }
-        if smooth > 0.0
-            && let Some(twin) = mesh.twin(dedge)
-        {
-            self.builder.entry(mesh.origin(dedge.prev()).0, smooth);
-            self.builder.entry(mesh.origin(twin.prev()).0, smooth);
-        }
+        let builder = &mut self.builder;
+        third_of(self.level, self.creasing, &mut self.here, [near, far], dedge, |source, weight| {
+            builder.entry(source, weight);
+        });
+    }
+}
+
+/// The weights of the point at a third of the way along a side that is cut, from its near end. `here` is scratch.
+pub(in crate::subdiv) fn third_of(
+    level: &Level,
+    creasing: Creasing,
+    here: &mut Neighbourhood,
+    [near, far]: [VertexId; 2],
+    dedge: DedgeId,
+    mut entry: impl FnMut(u32, f64),
+) {
+    let mesh = &level.mesh;
+    let mask = masks::BOUNDARY_POINT;
+    here.load(level, near, creasing);
+    let before = if level.is_fixed(near) { None } else { here.onward(far.0) };
+    // A sharpness below one: so much of the curve, the rest of the smooth surface.
+    let sharp = f64::from(level.edge_sharpness(dedge).min(1.0));
+    let smooth = (1.0 - sharp) / 3.0;
+    // Where the curve ends, the point before is the mirror image of the far end.
+    let (centre, after) = if before.is_some() {
+        (mask.centre, mask.after)
+    } else {
+        (mask.centre + 2.0 * mask.before, mask.after - mask.before)
+    };
+    entry(near.0, sharp * centre + smooth);
+    entry(far.0, sharp * after);
+    if let Some(before) = before {
+        entry(before, sharp * mask.before);
+    }
+    if smooth > 0.0
+        && let Some(twin) = mesh.twin(dedge)
+    {
+        entry(mesh.origin(dedge.prev()).0, smooth);
+        entry(mesh.origin(twin.prev()).0, smooth);
     }
 }
