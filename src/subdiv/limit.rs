@@ -10,7 +10,7 @@ use crate::mesh::VertexId;
 use super::level::Level;
 use super::mask::CurveMask;
 use super::neighbourhood::Neighbourhood;
-use super::rows::sqrt3::third_of;
+use super::rows::sqrt3::{beside_fading, third_of};
 use super::rule::Rule;
 use super::runs::Run;
 use super::scheme::{BoundaryStep, PlanOptions, Scheme};
@@ -188,10 +188,8 @@ impl<W: Weight> Rows<'_, W> {
         let mesh = &self.level.mesh;
         let outgoing: Vec<_> = mesh.outgoing_dedges(vertex).collect();
         let cut = outgoing.iter().filter(|d| self.level.is_divisible(d.next())).count();
-        let (step, mask) = (sqrt3::inner_vertex(outgoing.len()), sqrt3::limit_inner(outgoing.len() + cut));
+        let mask = sqrt3::limit_inner(outgoing.len() + cut);
         let row = &mut self.row;
-        row.push((vertex.0, [mask.centre * step.centre, 0.0, 0.0]));
-        row.extend(outgoing.iter().map(|&d| (mesh.target(d).0, [mask.centre * step.neighbour, 0.0, 0.0])));
         let mut place = 0;
         // Weights of the next neighbour in turn.
         let mut turn = || {
@@ -206,6 +204,12 @@ impl<W: Weight> Rows<'_, W> {
                 None => row.push((source, scaled)),
             }
         };
+        let centre = [mask.centre, 0.0, 0.0];
+        if !beside_fading(self.level, vertex, |source, weight| add(source, weight, centre)) {
+            let step = sqrt3::inner_vertex(outgoing.len());
+            add(vertex.0, step.centre, centre);
+            mesh.ring(vertex).for_each(|v| add(v.0, step.neighbour, centre));
+        }
         for side in outgoing {
             let opposite = side.next();
             let ends = [mesh.origin(opposite), mesh.target(opposite)];

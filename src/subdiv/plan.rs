@@ -393,7 +393,8 @@ fn wants_limit(options: &PlanOptions) -> bool {
 
 pub(super) fn check(options: &PlanOptions, tags: &Tags) -> Result<(), PlanError> {
     let scheme = options.scheme;
-    if !scheme.has_creases() && !(tags.creases.is_empty() && tags.corners.is_empty()) {
+    let has_sharp_tags = !tags.creases.is_empty() || !tags.corners.is_empty();
+    if has_sharp_tags && !scheme.has_creases() {
         return Err(PlanError::NoCreases { scheme });
     }
     if scheme != Scheme::Sqrt3 && !tags.frozen.is_empty() {
