@@ -14,6 +14,7 @@ pub mod doo_sabin;
 mod dual;
 mod dual_split;
 mod evaluate;
+mod face_varying;
 mod kernels;
 mod lane;
 mod level;
@@ -40,6 +41,7 @@ mod thirds;
 
 pub use dual::{DualError, Rim, ThreeConnected};
 pub use evaluate::{Evaluator, Surface, evaluate_once};
+pub use face_varying::{FaceVaryingError, FaceVaryingPlan, UvLinear};
 pub use limit::{LimitMask, LimitTable};
 pub use lod::{Detail, DetailBounds, DetailError, DetailState, Geomorph, GeomorphError, mean_edge_length};
 pub use mask::{CurveMask, RingMask};
