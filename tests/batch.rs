@@ -74,7 +74,8 @@ fn a_batch_depends_on_its_size_its_threads_or_its_tags() {
 fn a_degenerate_head_spoils_its_neighbours() {
     let shape = grid_with_hole();
     let plan = Plan::build(&shape.mesh().expect("a grid"), Scheme::Sqrt3, 2).expect("small");
-    let mut heads: Vec<Vec<Vec3>> = (0..8).map(|k| shape.positions.iter().map(|p| *p * (k + 1) as f32).collect()).collect();
+    let mut heads: Vec<Vec<Vec3>> =
+        (0..8).map(|k| shape.positions.iter().map(|p| *p * (k + 1) as f32).collect()).collect();
     heads[3].iter_mut().for_each(|p| *p = Vec3::ONE);
     heads[5].iter_mut().for_each(|p| *p *= 1e-25);
     let n = plan.n_vertices();
