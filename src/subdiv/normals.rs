@@ -72,6 +72,17 @@ impl Rings {
         Rings { neighbours, runs, n_vertices }
     }
 
+    /// For each vertex where its outline starts, and one entry more that ends the last; with an unused second number.
+    pub(super) fn starts(&self) -> Vec<[u32; 2]> {
+        let mut starts = Vec::with_capacity(self.n_vertices + 1);
+        for (i, run) in self.runs.iter().enumerate() {
+            let end = self.runs.get(i + 1).map_or(self.n_vertices as u32, |next| next.first_vertex);
+            starts.extend((0..end - run.first_vertex).map(|k| [run.first_entry + k * run.len, 0]));
+        }
+        starts.push([self.neighbours.len() as u32, 0]);
+        starts
+    }
+
     /// Bytes of all rings.
     pub(super) fn n_bytes(&self) -> usize {
         size_of_val(&self.neighbours[..]) + size_of_val(&self.runs[..])

@@ -316,6 +316,12 @@ impl Plan {
         self.limit.as_ref()
     }
 
+    /// For normals from faces: the outline of the faces around each vertex, as where it starts in the list that follows (one
+    /// entry more ends the last; the second number is not used), where the plan has such normals.
+    pub fn outlines(&self) -> Option<(Vec<[u32; 2]>, &[u32])> {
+        self.rings.as_ref().map(|rings| (rings.starts(), &rings.neighbours[..]))
+    }
+
     /// Bytes of the stencil tables and of the limit table: what an evaluation of positions reads. The index buffer and
     /// the rings for normals from faces come on top.
     pub fn n_table_bytes(&self) -> usize {
