@@ -74,7 +74,7 @@ fn subjects() -> Vec<Subject> {
                 add("+creases+limit", creases(&shape), limit);
             }
             if scheme == Scheme::Sqrt3 {
-                let frozen = Tags { frozen: vec![FaceId(1), FaceId(2)], holes: vec![FaceId(19)], ..Tags::default() };
+                let frozen = Tags { frozen: vec![FaceId(1), FaceId(2)], holes: vec![FaceId(16)], ..Tags::default() };
                 add("+frozen+hole", frozen, options);
             }
             if scheme == Scheme::Loop {
