@@ -51,12 +51,18 @@ pub(super) enum Command {
     Bake(Bake),
 }
 
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron")]
+#[derive(Args, Debug, Default)]
+#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron\n  londra view --measure 200 --json")]
 pub(super) struct View {
     /// A breed's file to open
     #[arg(value_name = "FILE.ron")]
     pub file: Option<PathBuf>,
+    /// Open no window: run so many of its pictures with a slider moving, and print what its own work takes
+    #[arg(long, value_name = "PICTURES", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub measure: Option<u32>,
+    /// Print a JSON object
+    #[arg(long, requires = "measure")]
+    pub json: bool,
 }
 
 /// Changes of a breed that every command understands.
