@@ -86,6 +86,14 @@ pub(super) struct Subject {
     pub changes: Changes,
 }
 
+/// How the result is told.
+#[derive(Args, Debug)]
+pub(super) struct Report {
+    /// Print JSON: one object, or an array of objects where there are several
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// How finely it is made.
 #[derive(Args, Debug)]
 pub(super) struct Detail {
@@ -117,9 +125,8 @@ pub(super) struct Target {
     /// The file to write, - for stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Print what was made as a JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]
@@ -216,9 +223,8 @@ pub(super) struct Hash {
     pub subject: Subject,
     #[command(flatten)]
     pub detail: Detail,
-    /// Print a JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]
@@ -226,9 +232,8 @@ pub(super) struct Hash {
 pub(super) struct List {
     /// What to list
     pub what: Listed,
-    /// Print a JSON array of objects
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 /// What can be listed.
@@ -247,9 +252,8 @@ pub(super) struct Check {
     /// Breed files, or a table of parameters
     #[arg(value_name = "FILE.ron", required = true)]
     pub files: Vec<PathBuf>,
-    /// Print a JSON array of objects
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]
