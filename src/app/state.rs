@@ -100,6 +100,8 @@ pub enum Command {
     ExportPath(PathBuf),
     /// Write the picture beside the breed or in the working folder.
     Screenshot,
+    /// Save, and close the window if that went well.
+    SaveAndQuit,
     /// Close the window; unsaved changes were given up.
     Quit,
 }

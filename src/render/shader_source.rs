@@ -6,6 +6,8 @@ use wgpu::naga;
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShaderFile {
+    /// The block that all the others read.
+    Globals,
     /// The head's surfaces.
     Mesh,
     /// Lines over the head.
@@ -32,11 +34,12 @@ pub struct ShaderError {
 
 impl ShaderFile {
     /// Every file.
-    pub const ALL: [Self; 4] = [Self::Mesh, Self::Wire, Self::Background, Self::Shadow];
+    pub const ALL: [Self; 5] = [Self::Globals, Self::Mesh, Self::Wire, Self::Background, Self::Shadow];
 
     /// File name inside `shaders/`.
     pub fn file_name(self) -> &'static str {
         match self {
+            Self::Globals => "globals.wgsl",
             Self::Mesh => "mesh.wgsl",
             Self::Wire => "wire.wgsl",
             Self::Background => "background.wgsl",
@@ -55,6 +58,7 @@ impl Default for ShaderSources {
     /// Those built into the program.
     fn default() -> Self {
         let texts = [
+            include_str!("../../shaders/globals.wgsl"),
             include_str!("../../shaders/mesh.wgsl"),
             include_str!("../../shaders/wire.wgsl"),
             include_str!("../../shaders/background.wgsl"),
@@ -75,12 +79,25 @@ impl ShaderSources {
         self.texts[file as usize] = text;
     }
 
+    /// A file as it is compiled: the block of globals comes behind it, so that its own lines keep their numbers.
+    fn composed(&self, file: ShaderFile) -> String {
+        match file {
+            ShaderFile::Globals => self.text(file).to_owned(),
+            _ => format!("{}\n{}", self.text(file), self.text(ShaderFile::Globals)),
+        }
+    }
+
     /// Parses and validates one file without a device.
     pub fn check(&self, file: ShaderFile) -> Result<(), ShaderError> {
-        let source = self.text(file);
+        if file != ShaderFile::Globals {
+            self.check(ShaderFile::Globals)?;
+        }
+        let source = &self.composed(file);
+        // Something left open at the end is noticed in the globals behind it, which are right.
+        let n_lines = self.text(file).lines().count().max(1) as u32;
         let error = |place: Option<naga::SourceLocation>, message: String| ShaderError {
             file: file.file_name(),
-            line: place.map_or(1, |p| p.line_number),
+            line: place.map_or(1, |p| p.line_number.min(n_lines)),
             column: place.map_or(1, |p| p.line_position),
             message: message.replace('\n', " "),
         };
@@ -98,7 +115,7 @@ impl ShaderSources {
         self.check(file)?;
         Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(file.file_name()),
-            source: wgpu::ShaderSource::Wgsl(self.text(file).into()),
+            source: wgpu::ShaderSource::Wgsl(self.composed(file).into()),
         }))
     }
 }
