@@ -4,7 +4,9 @@
 
 mod args;
 mod bake;
+mod bench;
 mod check;
+mod control;
 mod export;
 mod failure;
 mod hash;
@@ -12,6 +14,7 @@ mod list;
 mod output;
 mod picture;
 mod rigs;
+mod subdivide;
 mod subject;
 mod values;
 mod view;
@@ -53,5 +56,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Bake(args) => bake::run(&args),
+        Command::Subdivide(args) => subdivide::run(&args),
+        Command::Bench(args) => bench::run(&args),
     }
 }

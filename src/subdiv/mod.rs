@@ -11,6 +11,7 @@ mod adaptive;
 pub mod butterfly;
 pub mod catmull_clark;
 mod corners;
+mod crease_angle;
 mod disk;
 pub mod doo_sabin;
 mod dual;
@@ -42,6 +43,7 @@ mod tags;
 mod thirds;
 
 pub use adaptive::Candidate;
+pub use crease_angle::creases_by_angle;
 pub use disk::PlanFileError;
 pub use dual::{DualError, Rim, ThreeConnected};
 pub use evaluate::{Evaluator, Surface, evaluate_once};
