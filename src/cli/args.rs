@@ -267,14 +267,16 @@ pub(super) struct Bake {
 const MOST_STEPS: i64 = 30;
 
 #[derive(Args, Debug)]
-#[command(after_help = "Reads obj (with the tags t crease, t corner and t hole), 3ds, stl, ply, gltf and glb; writes obj, ply and glb, \
+#[command(
+    after_help = "Reads obj (with the tags t crease, t corner and t hole), 3ds, stl, ply, gltf and glb; writes obj, ply and glb, \
     and pictures as png.\n\
     Triangle schemes cut polygons into fans; catmull-clark and doo-sabin keep them.\n\n\
     Examples:\n  \
     londra subdivide cube.obj -o smooth.obj --scheme catmull-clark --level 3\n  \
     londra subdivide part.stl -o part.ply --scheme loop --level 2 --crease-angle 40 --limit --normals\n  \
     londra subdivide head.ply -o honeycomb.obj --scheme sqrt3 --level 2 --dual\n  \
-    londra subdivide head.glb --scheme sqrt3 --level 6 --adaptive 5 --json")]
+    londra subdivide head.glb --scheme sqrt3 --level 6 --adaptive 5 --json"
+)]
 pub(super) struct Subdivide {
     /// The mesh: a file, or - for stdin
     #[arg(value_name = "IN")]
@@ -342,10 +344,12 @@ pub(super) struct Subdivide {
 }
 
 #[derive(Args, Debug)]
-#[command(after_help = "Every frame has other control positions. x_copy compares with copying all that is delivered.\n\n\
+#[command(
+    after_help = "Every frame has other control positions. x_copy compares with copying all that is delivered.\n\n\
     Examples:\n  \
     londra bench --scheme sqrt3 --level 4 --normals\n  \
-    londra bench mesh.obj --scheme loop --level 3 --limit --threads 2 --json")]
+    londra bench mesh.obj --scheme loop --level 3 --limit --threads 2 --json"
+)]
 pub(super) struct Bench {
     /// The mesh: a file, or - for stdin; without it, the head's control mesh
     #[arg(value_name = "MESH")]

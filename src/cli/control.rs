@@ -1,6 +1,6 @@
 //! From a mesh file to what a plan is built from: connectivity, rest positions, tags.
 
-use super::{Failure, output};
+use super::Failure;
 use crate::app::disk;
 use crate::io::{Format, Soup};
 use crate::mesh::{DedgeMesh, FaceId, MeshError, PolygonMesh, VertexId};
@@ -193,22 +193,9 @@ impl Numbers {
     /// The same with the numbers of the file.
     fn of_tags(&self, error: TagError) -> TagError {
         match error {
-            TagError::NoSuchEdge { from, to } => {
-                TagError::NoSuchEdge { from: self.vertex(from), to: self.vertex(to) }
-            }
+            TagError::NoSuchEdge { from, to } => TagError::NoSuchEdge { from: self.vertex(from), to: self.vertex(to) },
             TagError::Holes(error) => TagError::Holes(error),
             error => error,
         }
     }
-}
-
-/// The format that a target asks for by its name: OBJ on stdout.
-pub(super) fn target_format(target: &Path) -> Result<Format, Failure> {
-    if output::is_stdout(target) {
-        return Ok(Format::Obj);
-    }
-    let by_name = target.extension().and_then(|e| e.to_str()).and_then(Format::from_extension);
-    by_name.filter(|format| format.is_written()).ok_or_else(|| {
-        Failure::Use(format!("{}: say by the name what to write: .obj, .ply, .glb, or .png for a picture", target.display()))
-    })
 }

@@ -11,6 +11,7 @@ mod export;
 mod failure;
 mod hash;
 mod list;
+mod mesh_picture;
 mod output;
 mod picture;
 mod rigs;

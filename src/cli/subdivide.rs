@@ -2,7 +2,7 @@
 
 use super::args::Subdivide;
 use super::control::{self, Control, Faces};
-use super::{Failure, output};
+use super::{Failure, mesh_picture, output};
 use crate::io::{Format, Soup};
 use crate::subdiv::{
     DualError, Evaluator, Normals, Plan, PlanError, PlanOptions, Positions, Scheme, ThreeConnected, creases_by_angle,
@@ -19,7 +19,7 @@ pub(super) fn run(args: &Subdivide) -> Result<(), Failure> {
     let format = match &args.output {
         Some(target) => {
             output::check_target(target, args.json)?;
-            Some(control::target_format(target)?)
+            Some(Written::by_name(target)?)
         }
         None => None,
     };
@@ -116,13 +116,38 @@ fn not_dual(path: &Path, error: &DualError) -> Failure {
     Failure::work(format!("{}: {error}", control::name_of(path)))
 }
 
+/// How it is written.
+#[derive(Clone, Copy)]
+enum Written {
+    Mesh(Format),
+    Picture,
+}
+
+impl Written {
+    /// What the name of a target asks for: OBJ on stdout.
+    fn by_name(target: &Path) -> Result<Written, Failure> {
+        if output::is_stdout(target) {
+            return Ok(Written::Mesh(Format::Obj));
+        }
+        let extension = target.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        if extension.eq_ignore_ascii_case("png") {
+            return Ok(Written::Picture);
+        }
+        let format = Format::from_extension(extension).filter(|format| format.is_written());
+        format.map(Written::Mesh).ok_or_else(|| {
+            let target = target.display();
+            Failure::Use(format!("{target}: say by the name what to write: .obj, .ply, .glb, or .png for a picture"))
+        })
+    }
+}
+
 /// What is written: a level, or its dual.
-struct Refined {
-    positions: Vec<Vec3>,
+pub(super) struct Refined {
+    pub positions: Vec<Vec3>,
     /// As many, or none.
-    normals: Vec<Vec3>,
-    face_sizes: Vec<u32>,
-    corners: Vec<u32>,
+    pub normals: Vec<Vec3>,
+    pub face_sizes: Vec<u32>,
+    pub corners: Vec<u32>,
     /// Length of each boundary.
     boundaries: Vec<usize>,
     on_boundary: Vec<u32>,
@@ -172,6 +197,16 @@ impl Refined {
         histogram
     }
 
+    /// The corners of each face.
+    pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        let mut rest = &self.corners[..];
+        self.face_sizes.iter().map(move |&size| {
+            let (face, after) = rest.split_at(size as usize);
+            rest = after;
+            face
+        })
+    }
+
     fn soup(&self) -> Soup {
         Soup {
             positions: doubles(&self.positions),
@@ -199,7 +234,8 @@ fn facts(args: &Subdivide, plan: &Plan, result: &Refined) -> Map<String, Value> 
         Normals::Limit => "limit",
     };
     let is_limit = args.limit || args.adaptive.is_some();
-    let valences: Map<String, Value> = result.valences().into_iter().map(|(n, count)| (n.to_string(), json!(count))).collect();
+    let valences: Map<String, Value> =
+        result.valences().into_iter().map(|(n, count)| (n.to_string(), json!(count))).collect();
     let facts = json!({
         "input": args.input.display().to_string(), "scheme": args.scheme.name(), "level": args.level,
         "positions": if is_limit { "limit" } else { "level" }, "normals": normals, "dual": args.dual.is_some(),
@@ -218,12 +254,15 @@ fn facts(args: &Subdivide, plan: &Plan, result: &Refined) -> Map<String, Value> 
 fn write(
     args: &Subdivide,
     target: &Path,
-    format: Format,
+    format: Written,
     result: &Refined,
     mut facts: Map<String, Value>,
 ) -> Result<(), Failure> {
     let normals = (!result.normals.is_empty()).then(|| doubles(&result.normals));
-    let bytes = crate::io::write(&result.soup(), normals.as_deref(), format).map_err(Failure::work)?;
+    let bytes = match format {
+        Written::Mesh(format) => crate::io::write(&result.soup(), normals.as_deref(), format).map_err(Failure::work)?,
+        Written::Picture => mesh_picture::draw(result)?.to_png().map_err(Failure::work)?,
+    };
     facts.insert("output".into(), json!(target.display().to_string()));
     facts.insert("bytes".into(), json!(bytes.len()));
     output::file(target, &bytes, args.json, Value::Object(facts))

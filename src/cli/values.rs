@@ -100,7 +100,9 @@ pub(super) fn scheme() -> impl TypedValueParser<Value = Scheme> {
 }
 
 /// One of a few words, each with what it stands for.
-pub(super) fn word<T: Copy + Send + Sync + 'static>(words: &[(&'static str, T)]) -> impl TypedValueParser<Value = T> + use<T> {
+pub(super) fn word<T: Copy + Send + Sync + 'static>(
+    words: &[(&'static str, T)],
+) -> impl TypedValueParser<Value = T> + use<T> {
     let words = words.to_vec();
     let names: Vec<&'static str> = words.iter().map(|(name, _)| *name).collect();
     PossibleValuesParser::new(names).try_map(move |text| {
