@@ -151,7 +151,9 @@ type Outcome = Result<(), String>;
 
 macro_rules! ensure {
     ($condition:expr, $($message:tt)+) => {
-        if !$condition {
+        // A comparison with no number holds neither way.
+        let holds: bool = $condition;
+        if !holds {
             return Err(format!($($message)+));
         }
     };
@@ -406,7 +408,11 @@ fn check_creases(case: &Case, ours: &Ours, matched: &[(usize, DVec3, usize)]) ->
             sources.iter().zip(weights).skip(1).filter(|(_, w)| w[0] != 0.0).map(|(&s, _)| s as usize).collect();
         let expected = match around.len() {
             _ if corners.contains(&v) => BTreeSet::new(),
-            0 | 1 => ours.mesh.ring(VertexId(v as u32)).map(VertexId::index).collect(),
+            0 | 1 => {
+                // Beside a curve the mask of a smooth vertex reaches beyond its ring.
+                let ring = ours.mesh.ring(VertexId(v as u32)).map(VertexId::index);
+                ring.chain(moving.iter().copied()).collect()
+            }
             2 => around,
             _ => BTreeSet::new(),
         };

@@ -4,16 +4,17 @@ use glam::Vec3;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::batch::Octets;
 use super::kernels;
 use super::lane::Lane;
-use super::limit::LimitTable;
-use super::normals::Rings;
 use super::plan::Plan;
 use super::scheme::{Normals, Positions};
 use super::stencil::StencilTable;
 
 /// Rows that one task takes: enough to pay for handing it over, few enough to balance.
 const CHUNK: usize = 4096;
+/// Vertices from which on several threads gain more than it costs to wake them.
+const PARALLEL_FROM: usize = 30_000;
 /// More threads than any machine has use for; a larger number is taken as this one.
 const MAX_THREADS: usize = 256;
 
@@ -33,14 +34,8 @@ pub struct Surface<'a> {
 /// Each value is one sum in one order, so the bits do not depend on the number of threads.
 #[derive(Debug)]
 pub struct Evaluator {
-    fingerprint: u64,
-    /// Two levels in turn: the one being read and the one being written.
-    coarse: Vec<Lane>,
-    fine: Vec<Lane>,
-    /// The last level.
-    finest: Vec<Lane>,
-    /// Where it goes, for plans with limit positions and normals from faces.
-    limit: Vec<Lane>,
+    buffers: Buffers,
+    octets: Octets,
     /// What [`Evaluator::evaluate`] lends out.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -52,11 +47,8 @@ impl Evaluator {
     /// Buffers for a plan, and one thread.
     pub fn new(plan: &Plan) -> Evaluator {
         let mut evaluator = Evaluator {
-            fingerprint: plan.fingerprint(),
-            coarse: Vec::new(),
-            fine: Vec::new(),
-            finest: Vec::new(),
-            limit: Vec::new(),
+            buffers: Buffers::default(),
+            octets: Octets::default(),
             positions: Vec::new(),
             normals: Vec::new(),
             pool: None,
@@ -66,7 +58,7 @@ impl Evaluator {
     }
 
     /// Sets the number of threads: 0 and 1 mean the caller's own. Where the system gives no more threads, evaluation
-    /// stays on the caller's; results are the same.
+    /// stays on the caller's; results are the same. A plan too small to gain by it is evaluated by one thread anyway.
     pub fn set_threads(&mut self, n: usize) {
         let n = n.clamp(1, MAX_THREADS);
         if n != self.threads() {
@@ -97,36 +89,12 @@ impl Evaluator {
     /// # Panics
     /// Where a length is another.
     pub fn evaluate_into(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3]) {
-        let n = plan.n_vertices();
-        let n_normals = if plan.options().normals == Normals::None { 0 } else { n };
-        assert!(positions.len() == n && normals.len() == n_normals, "one value for each vertex of the last level");
-        self.fit(plan);
-        if n_normals == 0 && plan.limit().is_none() {
-            return self.refine_into(plan, control, positions);
-        }
-        self.refine(plan, control);
-        let limit_positions = plan.options().positions == Positions::Limit;
-        match (plan.limit(), &plan.rings) {
-            (Some(limit), None) if n_normals > 0 => {
-                let (source, pool) = (&self.finest[..], self.pool.as_ref());
-                let limit_out = if limit_positions { &mut *positions } else { &mut [] };
-                for_chunks_of_two(pool, limit_out, normals, |first, positions, normals| {
-                    kernels::limit_surface(limit, first, source, positions, normals);
-                });
-                if !limit_positions {
-                    unpad(&self.finest, positions);
-                }
-            }
-            (limit, rings) => {
-                if let Some(limit) = limit {
-                    self.push_to_limit(limit);
-                }
-                unpad(&self.finest, positions);
-                if let Some(rings) = rings {
-                    self.find_normals(rings, normals);
-                }
-            }
-        }
+        assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
+        assert_eq!(positions.len(), plan.n_vertices(), "one position for each vertex of the last level");
+        assert_eq!(normals.len(), n_normals(plan), "one normal for each vertex of the last level, if the plan has any");
+        self.buffers.fit(plan);
+        let buffers = &mut self.buffers;
+        in_pool(self.pool.as_ref(), plan, |parallel| buffers.surface(plan, control, positions, normals, parallel));
     }
 
     /// The same stencils on any three channels (a colour, a flow): `control` has one value for each control vertex,
@@ -135,112 +103,187 @@ impl Evaluator {
     /// # Panics
     /// Where a length is another.
     pub fn evaluate_attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
+        assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
         assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
-        self.fit(plan);
-        match plan.limit().filter(|_| plan.options().positions == Positions::Limit) {
-            Some(limit) => {
-                self.refine(plan, control);
-                self.push_to_limit(limit);
-                unpad(&self.finest, out);
-            }
-            None => self.refine_into(plan, control, out),
-        }
+        self.buffers.fit(plan);
+        let buffers = &mut self.buffers;
+        in_pool(self.pool.as_ref(), plan, |parallel| buffers.attribute(plan, control, out, parallel));
+    }
+
+    /// For a batch: the threads, if there are several, and buffers for one.
+    pub(super) fn threads_and_octets(&mut self) -> (Option<&ThreadPool>, &mut Octets) {
+        (self.pool.as_ref(), &mut self.octets)
     }
 
     /// Makes the buffers fit; does nothing where they do.
     fn fit(&mut self, plan: &Plan) {
-        if self.fingerprint == plan.fingerprint() && self.finest.len() == plan.n_vertices() {
-            return;
-        }
-        self.fingerprint = plan.fingerprint();
-        let n_between = plan.tables().iter().map(StencilTable::n_sources).max().unwrap_or(0);
-        self.coarse.resize(n_between, Lane::default());
-        self.fine.resize(n_between, Lane::default());
-        self.finest.resize(plan.n_vertices(), Lane::default());
+        self.buffers.fit(plan);
         self.positions.resize(plan.n_vertices(), Vec3::ZERO);
-        let n_normals = if plan.options().normals == Normals::None { 0 } else { plan.n_vertices() };
-        self.normals.resize(n_normals, Vec3::ZERO);
+        self.normals.resize(n_normals(plan), Vec3::ZERO);
+    }
+}
+
+pub(super) fn n_normals(plan: &Plan) -> usize {
+    if plan.options().normals == Normals::None { 0 } else { plan.n_vertices() }
+}
+
+/// Runs the work in the pool if there is one and the plan is large enough to gain by it; tells it whether it does.
+fn in_pool<R: Send>(pool: Option<&ThreadPool>, plan: &Plan, work: impl FnOnce(bool) -> R + Send) -> R {
+    match pool {
+        Some(pool) if plan.n_vertices() >= PARALLEL_FROM => pool.install(|| work(true)),
+        _ => work(false),
+    }
+}
+
+/// What lies between control positions and the caller's buffers.
+#[derive(Debug, Default)]
+struct Buffers {
+    /// Two levels in turn: the one being read and the one being written.
+    coarse: Vec<Lane>,
+    fine: Vec<Lane>,
+    /// The last level.
+    finest: Vec<Lane>,
+    /// Where it goes, for plans with limit positions and normals from faces.
+    limit: Vec<Lane>,
+}
+
+impl Buffers {
+    /// Grows where a plan needs more; a smaller one uses the front.
+    fn fit(&mut self, plan: &Plan) {
+        let n_between = plan.tables().iter().map(StencilTable::n_sources).max().unwrap_or(0);
+        for (buffer, n) in [
+            (&mut self.coarse, n_between),
+            (&mut self.fine, n_between),
+            (&mut self.finest, if needs_lanes(plan) { plan.n_vertices() } else { 0 }),
+            (&mut self.limit, if pushes(plan) { plan.n_vertices() } else { 0 }),
+        ] {
+            if buffer.len() < n {
+                buffer.resize(n, Lane::default());
+            }
+        }
+    }
+
+    fn surface(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3], parallel: bool) {
+        if !needs_lanes(plan) {
+            return self.refine_into(plan, control, positions, parallel);
+        }
+        self.refine(plan, control, parallel);
+        let n = plan.n_vertices();
+        match (plan.limit(), &plan.rings) {
+            (Some(limit), None) if !normals.is_empty() => {
+                let limit_positions = plan.options().positions == Positions::Limit;
+                let (source, limit_out) = (&self.finest[..n], if limit_positions { &mut *positions } else { &mut [] });
+                for_chunks_of_two(parallel, limit_out, normals, |first, positions, normals| {
+                    kernels::limit_surface(limit, first, source, positions, normals);
+                });
+                if !limit_positions {
+                    unpad(parallel, source, positions);
+                }
+            }
+            (_, rings) => {
+                self.push(plan, parallel);
+                let source = &self.finest[..n];
+                unpad(parallel, source, positions);
+                if let Some(rings) = rings {
+                    for_chunks(parallel, normals, |first, normals| rings.normals(first, source, normals));
+                }
+            }
+        }
+    }
+
+    fn attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], parallel: bool) {
+        if plan.limit().is_none() || plan.options().positions == Positions::Level {
+            return self.refine_into(plan, control, out, parallel);
+        }
+        self.refine(plan, control, parallel);
+        self.push(plan, parallel);
+        unpad(parallel, &self.finest[..plan.n_vertices()], out);
     }
 
     /// From control values to those of the last level, in `finest`.
-    fn refine(&mut self, plan: &Plan, control: &[Vec3]) {
-        match self.refine_but_last(plan, control) {
-            Some(last) => apply(self.pool.as_ref(), last, &self.coarse[..last.n_sources()], &mut self.finest),
-            None => pad(control, &mut self.finest),
+    fn refine(&mut self, plan: &Plan, control: &[Vec3], parallel: bool) {
+        let finest = &mut self.finest[..plan.n_vertices()];
+        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, parallel) {
+            Some(last) => apply(parallel, last, &self.coarse[..last.n_sources()], finest),
+            None => pad(control, finest),
         }
     }
 
     /// From control values to those of the last level, in `out`.
-    fn refine_into(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
-        match self.refine_but_last(plan, control) {
+    fn refine_into(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], parallel: bool) {
+        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, parallel) {
             Some(last) => {
                 let source = &self.coarse[..last.n_sources()];
-                for_chunks(self.pool.as_ref(), out, |first, out| kernels::apply_positions(last, first, source, out));
+                for_chunks(parallel, out, |first, out| kernels::apply_positions(last, first, source, out));
             }
             None => out.copy_from_slice(control),
         }
     }
 
-    /// All steps but the last, whose table is returned; its sources are in `coarse` then. None where there is no step.
-    fn refine_but_last<'p>(&mut self, plan: &'p Plan, control: &[Vec3]) -> Option<&'p StencilTable> {
-        assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
-        let (last, steps) = plan.tables().split_last()?;
-        pad(control, &mut self.coarse);
-        for table in steps {
-            let (source, target) = (&self.coarse[..table.n_sources()], &mut self.fine[..table.n_rows()]);
-            apply(self.pool.as_ref(), table, source, target);
-            std::mem::swap(&mut self.coarse, &mut self.fine);
-        }
-        Some(last)
-    }
-
-    /// Replaces the values in `finest` by where they go.
-    fn push_to_limit(&mut self, limit: &LimitTable) {
-        self.limit.resize(self.finest.len(), Lane::default());
-        let (source, pool) = (&self.finest[..], self.pool.as_ref());
-        for_chunks(pool, &mut self.limit, |first, out| kernels::limit_positions(limit, first, source, out));
+    /// Replaces the values in `finest` by where they go, if the plan wants that.
+    fn push(&mut self, plan: &Plan, parallel: bool) {
+        let Some(limit) = plan.limit().filter(|_| pushes(plan)) else { return };
+        let n = plan.n_vertices();
+        let source = &self.finest[..n];
+        for_chunks(parallel, &mut self.limit[..n], |first, out| kernels::limit_positions(limit, first, source, out));
         std::mem::swap(&mut self.limit, &mut self.finest);
-    }
-
-    fn find_normals(&self, rings: &Rings, normals: &mut [Vec3]) {
-        let positions = &self.finest[..];
-        for_chunks(self.pool.as_ref(), normals, |first, normals| rings.normals(first, positions, normals));
     }
 }
 
-fn apply(pool: Option<&ThreadPool>, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
-    for_chunks(pool, out, |first, out| kernels::apply_lanes(table, first, source, out));
+/// Whether the last level is read again, so that it has to be there in lanes.
+fn needs_lanes(plan: &Plan) -> bool {
+    plan.rings.is_some() || plan.limit().is_some()
+}
+
+/// Whether the last level itself is moved to the limit.
+fn pushes(plan: &Plan) -> bool {
+    plan.limit().is_some() && plan.options().positions == Positions::Limit
+}
+
+/// All steps but the last, whose table is returned; its sources are in `coarse` then. None where there is no step.
+fn refine_but_last<'p>(
+    coarse: &mut Vec<Lane>,
+    fine: &mut Vec<Lane>,
+    plan: &'p Plan,
+    control: &[Vec3],
+    parallel: bool,
+) -> Option<&'p StencilTable> {
+    let (last, steps) = plan.tables().split_last()?;
+    pad(control, coarse);
+    for table in steps {
+        apply(parallel, table, &coarse[..table.n_sources()], &mut fine[..table.n_rows()]);
+        std::mem::swap(coarse, fine);
+    }
+    Some(last)
+}
+
+fn apply(parallel: bool, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
+    for_chunks(parallel, out, |first, out| kernels::apply_lanes(table, first, source, out));
 }
 
 /// Runs `work` over chunks of `out`, each with the index of its first place, on as many threads as there are.
-fn for_chunks<T: Send>(pool: Option<&ThreadPool>, out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    match pool {
-        Some(pool) if out.len() > CHUNK => pool.install(|| {
-            out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| work(chunk * CHUNK, out));
-        }),
-        _ => work(0, out),
+fn for_chunks<T: Send>(parallel: bool, out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    if parallel && out.len() > CHUNK {
+        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| work(chunk * CHUNK, out));
+    } else {
+        work(0, out);
     }
 }
 
 /// The same over two lists side by side; the first may be empty.
 fn for_chunks_of_two<T: Send>(
-    pool: Option<&ThreadPool>,
+    parallel: bool,
     first: &mut [T],
     second: &mut [T],
     work: impl Fn(usize, &mut [T], &mut [T]) + Sync,
 ) {
-    match pool {
-        Some(pool) if second.len() > CHUNK => pool.install(|| {
-            let n_chunks = second.len().div_ceil(CHUNK);
-            let firsts: Vec<&mut [T]> = if first.is_empty() {
-                std::iter::repeat_with(|| &mut [][..]).take(n_chunks).collect()
-            } else {
-                first.chunks_mut(CHUNK).collect()
-            };
-            let seconds = second.par_chunks_mut(CHUNK);
-            seconds.zip(firsts).enumerate().for_each(|(chunk, (second, first))| work(chunk * CHUNK, first, second));
-        }),
-        _ => work(0, first, second),
+    if !parallel || second.len() <= CHUNK {
+        work(0, first, second);
+    } else if first.is_empty() {
+        second.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, second)| work(chunk * CHUNK, &mut [], second));
+    } else {
+        let pairs = first.par_chunks_mut(CHUNK).zip(second.par_chunks_mut(CHUNK));
+        pairs.enumerate().for_each(|(chunk, (first, second))| work(chunk * CHUNK, first, second));
     }
 }
 
@@ -250,10 +293,12 @@ fn pad(values: &[Vec3], lanes: &mut [Lane]) {
     }
 }
 
-fn unpad(lanes: &[Lane], values: &mut [Vec3]) {
-    for (value, &lane) in values.iter_mut().zip(lanes) {
-        *value = lane.into();
-    }
+fn unpad(parallel: bool, lanes: &[Lane], values: &mut [Vec3]) {
+    for_chunks(parallel, values, |first, values| {
+        for (value, &lane) in values.iter_mut().zip(&lanes[first..]) {
+            *value = lane.into();
+        }
+    });
 }
 
 /// Positions and normals in vectors of their own: for examples and single shots. Frames keep an [`Evaluator`].

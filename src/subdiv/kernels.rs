@@ -1,12 +1,13 @@
-//! The loops over the rows of a table: short, and each with a length that the compiler knows.
+//! The loops over the rows of a table: short, and each with a length and a pattern of weights that the compiler knows.
 //!
 //! They read without bounds checks, which would cost as much as the sums. What makes that sound is an invariant of the
 //! tables: every source is below the number of sources. It is checked in full when a table is finished or loaded
-//! ([`StencilTable`], [`LimitTable`] and [`Rings`] cannot be had otherwise), and the length of the values is checked here.
+//! ([`StencilTable`], [`LimitTable`] and [`Rings`](super::normals::Rings) cannot be had otherwise), and the length of the
+//! values is checked here.
 
 use glam::Vec3;
 
-use super::lane::Lane;
+use super::lane::{Lane, Octet, Value};
 use super::limit::LimitTable;
 use super::normals::{BLOCK, Sums};
 use super::runs::pieces;
@@ -15,7 +16,7 @@ use super::stencil::StencilTable;
 /// One value of a table's sources.
 #[inline(always)]
 #[allow(unsafe_code)]
-pub(super) fn fetch(values: &[Lane], source: u32) -> Lane {
+pub(super) fn fetch<V: Copy>(values: &[V], source: u32) -> V {
     debug_assert!((source as usize) < values.len());
     // SAFETY: `source` comes from a table whose sources are all below its number of sources, and each caller asserts that
     // `values` has that length.
@@ -24,12 +25,12 @@ pub(super) fn fetch(values: &[Lane], source: u32) -> Lane {
 
 /// Computes the rows from `first_row` on, one for each place in `out`, and hands each to `put`.
 #[inline(always)]
-pub(super) fn apply<T>(
+fn apply<V: Value, T>(
     table: &StencilTable,
     first_row: usize,
-    source: &[Lane],
+    source: &[V],
     out: &mut [T],
-    put: impl Fn(&mut T, Lane) + Copy,
+    put: impl Fn(&mut T, V) + Copy,
 ) {
     assert_eq!(source.len(), table.n_sources, "one value for each source");
     assert!(first_row + out.len() <= table.n_rows, "at most one value for each row");
@@ -37,59 +38,79 @@ pub(super) fn apply<T>(
         let weights = &table.weights[piece.weights];
         let sources = &table.sources[piece.entries];
         let out = &mut out[piece.out];
+        // Equal weights are taken out of the sum: a regular vertex costs two multiplications, not seven.
         match *weights {
-            [w] => fixed::<1, T>([w], sources, source, out, put),
-            [a, b] => fixed::<2, T>([a, b], sources, source, out, put),
-            [a, b, c] => fixed::<3, T>([a, b, c], sources, source, out, put),
-            [a, b, c, d] => fixed::<4, T>([a, b, c, d], sources, source, out, put),
-            [a, b, c, d, e, f, g] => fixed::<7, T>([a, b, c, d, e, f, g], sources, source, out, put),
-            _ => long(weights, sources, source, out, put),
+            [w] => each::<1, T>(sources, out, |[a], out| put(out, fetch(source, a).scaled(w))),
+            [w, v] if w == v => each::<2, T>(sources, out, |[a, b], out| {
+                put(out, fetch(source, a).plus(fetch(source, b)).scaled(w));
+            }),
+            [w, v, u] if w == v && v == u => each::<3, T>(sources, out, |[a, b, c], out| {
+                put(out, fetch(source, a).plus(fetch(source, b)).plus(fetch(source, c)).scaled(w));
+            }),
+            [w, v, u] if v == u => each::<3, T>(sources, out, |[a, b, c], out| {
+                let sides = fetch(source, b).plus(fetch(source, c));
+                put(out, fetch(source, a).scaled(w).plus(sides.scaled(v)));
+            }),
+            [w, v, u, t] if w == v && u == t => each::<4, T>(sources, out, |[a, b, c, d], out| {
+                let (ends, sides) = (fetch(source, a).plus(fetch(source, b)), fetch(source, c).plus(fetch(source, d)));
+                put(out, ends.scaled(w).plus(sides.scaled(u)));
+            }),
+            [w, v, ref rest @ ..] if rest.len() == 5 && rest.iter().all(|r| *r == v) => {
+                each::<7, T>(sources, out, |[s, a, b, c, d, e, f], out| {
+                    let ring = fetch(source, a).plus(fetch(source, b)).plus(fetch(source, c));
+                    let ring = ring.plus(fetch(source, d)).plus(fetch(source, e)).plus(fetch(source, f));
+                    put(out, fetch(source, s).scaled(w).plus(ring.scaled(v)));
+                });
+            }
+            [w, v, ref rest @ ..] if rest.iter().all(|r| *r == v) => {
+                for (out, sources) in out.iter_mut().zip(sources.chunks_exact(weights.len())) {
+                    let mut ring = fetch(source, sources[1]);
+                    for &s in &sources[2..] {
+                        ring = ring.plus(fetch(source, s));
+                    }
+                    put(out, fetch(source, sources[0]).scaled(w).plus(ring.scaled(v)));
+                }
+            }
+            _ => {
+                for (out, sources) in out.iter_mut().zip(sources.chunks_exact(weights.len())) {
+                    let mut sum = fetch(source, sources[0]).scaled(weights[0]);
+                    for (&s, &weight) in sources[1..].iter().zip(&weights[1..]) {
+                        sum = sum.plus(fetch(source, s).scaled(weight));
+                    }
+                    put(out, sum);
+                }
+            }
         }
     }
 }
 
-/// Rows of `N` entries each.
+/// Rows of `N` sources each.
 #[inline(always)]
-fn fixed<const N: usize, T>(
-    weights: [f32; N],
-    sources: &[u32],
-    source: &[Lane],
-    out: &mut [T],
-    put: impl Fn(&mut T, Lane),
-) {
+fn each<const N: usize, T>(sources: &[u32], out: &mut [T], row: impl Fn([u32; N], &mut T)) {
     let (sources, _) = sources.as_chunks::<N>();
-    for (out, sources) in out.iter_mut().zip(sources) {
-        let mut sum = fetch(source, sources[0]).scaled(weights[0]);
-        for i in 1..N {
-            sum = sum.plus(fetch(source, sources[i]).scaled(weights[i]));
-        }
-        put(out, sum);
+    for (out, &sources) in out.iter_mut().zip(sources) {
+        row(sources, out);
     }
 }
 
-/// Rows of any length.
-#[inline(always)]
-fn long<T>(weights: &[f32], sources: &[u32], source: &[Lane], out: &mut [T], put: impl Fn(&mut T, Lane)) {
-    for (out, sources) in out.iter_mut().zip(sources.chunks_exact(weights.len())) {
-        let mut sum = fetch(source, sources[0]).scaled(weights[0]);
-        for (&s, &weight) in sources[1..].iter().zip(&weights[1..]) {
-            sum = sum.plus(fetch(source, s).scaled(weight));
-        }
-        put(out, sum);
-    }
-}
-
-/// [`apply`] to lanes, for a level that is read again.
+/// The rows as lanes, for a level that is read again.
 #[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
 pub(super) fn apply_lanes(table: &StencilTable, first_row: usize, source: &[Lane], out: &mut [Lane]) {
     apply(table, first_row, source, out, |out, sum| *out = sum);
 }
 
-/// [`apply`] to positions, for a level that is delivered.
+/// The rows as positions, for a level that is delivered.
 #[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
 pub(super) fn apply_positions(table: &StencilTable, first_row: usize, source: &[Lane], out: &mut [Vec3]) {
     apply(table, first_row, source, out, |out, sum| *out = sum.into());
 }
+
+/// The rows of eight heads.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2", "x86_64+avx"))]
+pub(super) fn apply_octets(table: &StencilTable, first_row: usize, source: &[Octet], out: &mut [Octet]) {
+    apply(table, first_row, source, out, |out, sum| *out = sum);
+}
+
 /// Computes limit positions from row `first` on, one for each place in `out`.
 pub(super) fn limit_positions(table: &LimitTable, first: usize, source: &[Lane], out: &mut [Lane]) {
     assert_eq!(source.len(), table.n_rows, "one value for each source");
@@ -138,7 +159,7 @@ pub(super) fn limit_surface(
                         positions[start + i] = v.scaled(centre).plus(ring.scaled(neighbour)).into();
                     }
                     let along = a.plus(b.minus(c).scaled(0.5));
-                    sums.set(i, along.cross_zxy(b.plus(c)));
+                    sums.set(i, along.cross(b.plus(c)));
                 }
             } else {
                 for (i, sources) in piece.out.zip(sources.chunks_exact(weights.len())) {
@@ -152,7 +173,7 @@ pub(super) fn limit_surface(
                     if wants_positions {
                         positions[start + i] = totals[0].into();
                     }
-                    sums.set(i, totals[1].cross_zxy(totals[2]));
+                    sums.set(i, totals[1].cross(totals[2]));
                 }
             }
         }

@@ -10,6 +10,7 @@ use crate::mesh::VertexId;
 use super::level::Level;
 use super::mask::CurveMask;
 use super::neighbourhood::Neighbourhood;
+use super::rows::sqrt3::{beside_fading, third_of};
 use super::rule::Rule;
 use super::runs::Run;
 use super::scheme::{BoundaryStep, PlanOptions, Scheme};
@@ -39,7 +40,8 @@ impl LimitMask {
     }
 }
 
-/// For each vertex of a level the weights, over itself and its ring, of its limit position and of two tangents.
+/// For each vertex of a level the weights, over itself and its ring, of its limit position and of two tangents. (Beside a
+/// boundary, after an odd number of √3 steps, over a few vertices more.)
 ///
 /// Runs of rows share their weights as in a [`StencilTable`](super::StencilTable).
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +117,7 @@ struct Rows<'a, W> {
     steps: u32,
     table: LimitTable<W>,
     here: Neighbourhood,
-    /// The row in the making: the vertex, then its whole ring.
+    /// The row in the making: the vertex, then its whole ring, then what else there is.
     row: Vec<(u32, [f64; 3])>,
     rounded: Vec<[W; 3]>,
 }
@@ -146,6 +148,9 @@ impl<W: Weight> Rows<'_, W> {
     fn vertex(&mut self, vertex: VertexId) {
         self.row.clear();
         let mesh = &self.level.mesh;
+        if self.grows(vertex) {
+            return self.grown(vertex);
+        }
         if self.level.is_plain() && !mesh.is_boundary_vertex(vertex) {
             self.row.push((vertex.0, [0.0; 3]));
             self.row.extend(mesh.ring(vertex).map(|v| (v.0, [0.0; 3])));
@@ -166,6 +171,61 @@ impl<W: Weight> Rows<'_, W> {
             Rule::Corner => {
                 self.row[0].1[0] = 1.0;
                 self.sides(&sharp);
+            }
+        }
+    }
+
+    /// Whether the next step gives the vertex more neighbours: one that √3 has put into a face with sides to cut. Their
+    /// points come to lie between its neighbours in place of a middle of the face.
+    fn grows(&self, vertex: VertexId) -> bool {
+        self.options.scheme == Scheme::Sqrt3
+            && BoundaryStep::from_level(self.steps) == BoundaryStep::Trisect
+            && self.level.mesh.outgoing_dedges(vertex).any(|d| self.level.is_divisible(d.next()))
+    }
+
+    /// Such a vertex: the masks of the next level, applied to the points of the next step.
+    fn grown(&mut self, vertex: VertexId) {
+        let mesh = &self.level.mesh;
+        let outgoing: Vec<_> = mesh.outgoing_dedges(vertex).collect();
+        let cut = outgoing.iter().filter(|d| self.level.is_divisible(d.next())).count();
+        let mask = sqrt3::limit_inner(outgoing.len() + cut);
+        let row = &mut self.row;
+        let mut place = 0;
+        // Weights of the next neighbour in turn.
+        let mut turn = || {
+            let [t1, t2] = mask.tangents(place);
+            place += 1;
+            [mask.neighbour, t1, t2]
+        };
+        let mut add = |source: u32, weight: f64, weights: [f64; 3]| {
+            let scaled = weights.map(|w| w * weight);
+            match row.iter_mut().find(|(s, _)| *s == source) {
+                Some((_, sums)) => (0..3).for_each(|k| sums[k] += scaled[k]),
+                None => row.push((source, scaled)),
+            }
+        };
+        let centre = [mask.centre, 0.0, 0.0];
+        if !beside_fading(self.level, vertex, |source, weight| add(source, weight, centre)) {
+            let step = sqrt3::inner_vertex(outgoing.len());
+            add(vertex.0, step.centre, centre);
+            mesh.ring(vertex).for_each(|v| add(v.0, step.neighbour, centre));
+        }
+        for side in outgoing {
+            let opposite = side.next();
+            let ends = [mesh.origin(opposite), mesh.target(opposite)];
+            if self.level.is_divisible(opposite) {
+                for near_far in [ends, [ends[1], ends[0]]] {
+                    let weights = turn();
+                    let here = &mut self.here;
+                    third_of(self.level, self.options.creasing, here, near_far, opposite, |source, weight| {
+                        add(source, weight, weights);
+                    });
+                }
+            } else {
+                let weights = turn();
+                for (corner, weight) in [vertex, ends[0], ends[1]].into_iter().zip(sqrt3::FACE_POINT) {
+                    add(corner.0, weight, weights);
+                }
             }
         }
     }

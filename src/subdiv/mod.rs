@@ -8,6 +8,7 @@
 //! `quarters`, `corners`, `dual_split`) are apart; `rows` brings them together into stencils.
 
 mod adaptive;
+mod batch;
 pub mod butterfly;
 pub mod catmull_clark;
 mod corners;
@@ -17,6 +18,7 @@ pub mod doo_sabin;
 mod dual;
 mod dual_split;
 mod evaluate;
+mod face_varying;
 mod flatness;
 mod kernels;
 mod lane;
@@ -47,6 +49,7 @@ pub use crease_angle::creases_by_angle;
 pub use disk::PlanFileError;
 pub use dual::{DualError, Rim, ThreeConnected};
 pub use evaluate::{Evaluator, Surface, evaluate_once};
+pub use face_varying::{FaceVaryingError, FaceVaryingPlan, UvLinear};
 pub use flatness::flat_faces;
 pub use limit::{LimitMask, LimitTable};
 pub use lod::{Detail, DetailBounds, DetailError, DetailState, Geomorph, GeomorphError, mean_edge_length};

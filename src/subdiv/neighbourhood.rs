@@ -104,13 +104,19 @@ impl Neighbourhood {
         self.around.rules()
     }
 
-    /// The other end of the curve through this vertex, coming from `from`: none where the curve ends or forks here.
-    pub(super) fn onward(&self, from: u32) -> Option<u32> {
-        let rules = self.around.rules();
-        if rules.now != Rule::Crease {
-            return None;
-        }
-        (0..self.ring.len()).find(|&i| self.around.edges[i] > 0.0 && self.ring[i] != from).map(|i| self.ring[i])
+    /// How the curve goes on through this vertex, coming from the neighbour `from`: its other end, none where it ends or
+    /// forks here, by the rule of this step and by that of the next, with the weights of the two.
+    pub(super) fn onward(&self, from: u32) -> [(Option<u32>, f64); 2] {
+        let rules = self.rules();
+        let other = |rule: Rule, when: When| {
+            let is_other = |&i: &usize| self.is_sharp(i, when) && self.ring[i] != from;
+            (0..self.ring.len()).find(is_other).filter(|_| rule == Rule::Crease).map(|i| self.ring[i])
+        };
+        let now = other(rules.now, When::Now);
+        // An edge that is smooth from the next step on has no curve to be part of then.
+        let stays = (0..self.ring.len()).any(|i| self.ring[i] == from && self.is_sharp(i, When::Next));
+        let next = if stays { other(rules.next, When::Next) } else { now };
+        [(now, rules.weight_now), (next, 1.0 - rules.weight_now)]
     }
 
     /// Writes the row: the vertex, then its ring counter-clockwise, without those of no weight.

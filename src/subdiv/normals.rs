@@ -8,12 +8,13 @@
 //! Gathering, and not scattering, gives each sum one order whatever the number of threads.
 
 use glam::Vec3;
+use wide::f32x8;
 
 use crate::math::ops;
 use crate::mesh::VertexId;
 
 use super::kernels::fetch;
-use super::lane::Lane;
+use super::lane::{Lane, Octet, Value};
 use super::stencil::all_below;
 
 /// The normal where none is defined: the triangles around the vertex have no area, or a position is not finite.
@@ -71,6 +72,17 @@ impl Rings {
         Rings { neighbours, runs, n_vertices }
     }
 
+    /// For each vertex where its outline starts, and one entry more that ends the last; with an unused second number.
+    pub(super) fn starts(&self) -> Vec<[u32; 2]> {
+        let mut starts = Vec::with_capacity(self.n_vertices + 1);
+        for (i, run) in self.runs.iter().enumerate() {
+            let end = self.runs.get(i + 1).map_or(self.n_vertices as u32, |next| next.first_vertex);
+            starts.extend((0..end - run.first_vertex).map(|k| [run.first_entry + k * run.len, 0]));
+        }
+        starts.push([self.neighbours.len() as u32, 0]);
+        starts
+    }
+
     /// Bytes of all rings.
     pub(super) fn n_bytes(&self) -> usize {
         size_of_val(&self.neighbours[..]) + size_of_val(&self.runs[..])
@@ -87,51 +99,88 @@ impl Rings {
 #[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
 fn normals(rings: &Rings, first: usize, positions: &[Lane], out: &mut [Vec3]) {
     let mut sums = Sums::default();
-    let mut run = rings.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
     for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-        let (start, end) = (first + block * BLOCK, first + block * BLOCK + out.len());
-        let mut vertex = start;
-        while vertex < end {
-            let RingRun { first_vertex, first_entry, len } = rings.runs[run];
-            let run_end = rings.runs.get(run + 1).map_or(rings.n_vertices, |next| next.first_vertex as usize);
-            let stop = run_end.min(end);
-            let len = len as usize;
-            let entry = first_entry as usize + (vertex - first_vertex as usize) * len;
-            let outlines = &rings.neighbours[entry..entry + (stop - vertex) * len];
-            if let (6, (outlines, _)) = (len, outlines.as_chunks::<6>()) {
-                for (i, outline) in (vertex - start..stop - start).zip(outlines) {
-                    sums.set(i, vector_area(outline, positions));
-                }
-            } else {
-                for (i, outline) in (vertex - start..stop - start).zip(outlines.chunks_exact(len)) {
-                    sums.set(i, vector_area(outline, positions));
-                }
-            }
-            vertex = stop;
-            if stop == run_end {
-                run += 1;
-            }
-        }
+        rings.vector_areas(first + block * BLOCK, out.len(), positions, |i, area| sums.set(i, area));
         sums.unit_vectors(out);
     }
 }
 
-/// Twice the vector area of a closed outline of two vertices or more, as z, x, y.
+/// Unit normals of eight heads, of the vertices from `first` on, into as many places from `first` on of each of `heads`.
+#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2", "x86_64+avx"))]
+pub(super) fn octet_normals(rings: &Rings, positions: &[Octet], heads: &mut [&mut [Vec3]]) {
+    let mut areas = [Octet::default(); BLOCK];
+    let mut first = 0;
+    while first < rings.n_vertices {
+        let n = BLOCK.min(rings.n_vertices - first);
+        rings.vector_areas(first, n, positions, |i, area| areas[i] = area);
+        for (i, &area) in areas[..n].iter().enumerate() {
+            let squared = area.squared();
+            let inverse = f32x8::splat(1.0) / squared.sqrt();
+            (area * inverse).scatter(heads, first + i);
+            let squared = squared.to_array();
+            if squared.iter().any(|&squared| !(squared > TINY && squared < HUGE)) {
+                settle_octet(area, first + i, heads);
+            }
+        }
+        first += n;
+    }
+}
+
+#[cold]
+fn settle_octet(area: Octet, vertex: usize, heads: &mut [&mut [Vec3]]) {
+    let (x, y, z) = (area.x.to_array(), area.y.to_array(), area.z.to_array());
+    for (head, out) in heads.iter_mut().enumerate() {
+        let sum = Vec3::new(x[head], y[head], z[head]);
+        if is_extreme(sum) {
+            out[vertex] = unit_of_extreme(sum);
+        }
+    }
+}
+
+impl Rings {
+    /// Twice the vector area around each of `n` vertices from `first` on, handed over with its index from 0.
+    #[inline(always)]
+    fn vector_areas<V: Value>(&self, first: usize, n: usize, positions: &[V], mut put: impl FnMut(usize, V)) {
+        assert_eq!(positions.len(), self.n_vertices, "one position for each vertex");
+        let mut run = self.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
+        let (mut vertex, end) = (first, (first + n).min(self.n_vertices));
+        while vertex < end {
+            let RingRun { first_vertex, first_entry, len } = self.runs[run];
+            let run_end = self.runs.get(run + 1).map_or(self.n_vertices, |next| next.first_vertex as usize);
+            let (stop, len) = (run_end.min(end), len as usize);
+            let entry = first_entry as usize + (vertex - first_vertex as usize) * len;
+            let outlines = &self.neighbours[entry..entry + (stop - vertex) * len];
+            if let (6, (outlines, _)) = (len, outlines.as_chunks::<6>()) {
+                for (i, outline) in (vertex - first..stop - first).zip(outlines) {
+                    put(i, vector_area(outline, positions));
+                }
+            } else {
+                for (i, outline) in (vertex - first..stop - first).zip(outlines.chunks_exact(len)) {
+                    put(i, vector_area(outline, positions));
+                }
+            }
+            vertex = stop;
+            run += 1;
+        }
+    }
+}
+
+/// Twice the vector area of a closed outline of two vertices or more.
 #[inline(always)]
-fn vector_area(outline: &[u32], positions: &[Lane]) -> Lane {
+fn vector_area<V: Value>(outline: &[u32], positions: &[V]) -> V {
     let corner = fetch(positions, outline[0]);
-    let mut sum = Lane::default();
+    let mut sum = V::default();
     let mut i = 1;
     // From the corner over the next two to the third.
     while i + 2 < outline.len() {
         let (a, b) = (fetch(positions, outline[i]), fetch(positions, outline[i + 1]));
         let c = fetch(positions, outline[i + 2]);
-        sum = sum.plus(b.minus(corner).cross_zxy(c.minus(a)));
+        sum = sum.plus(b.minus(corner).cross(c.minus(a)));
         i += 2;
     }
     if i + 1 < outline.len() {
         let (a, b) = (fetch(positions, outline[i]), fetch(positions, outline[i + 1]));
-        sum = sum.plus(a.minus(corner).cross_zxy(b.minus(corner)));
+        sum = sum.plus(a.minus(corner).cross(b.minus(corner)));
     }
     sum
 }
@@ -181,12 +230,16 @@ impl Sums {
     fn settle_extremes(&self, out: &mut [Vec3]) {
         for (i, out) in out.iter_mut().enumerate() {
             let sum = Vec3::new(self.x[i], self.y[i], self.z[i]);
-            let squared = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
-            if !(squared > TINY && squared < HUGE) {
+            if is_extreme(sum) {
                 *out = unit_of_extreme(sum);
             }
         }
     }
+}
+
+fn is_extreme(sum: Vec3) -> bool {
+    let squared = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+    !(squared > TINY && squared < HUGE)
 }
 
 /// A direction whose squared length underflows or overflows, or that is none.

@@ -316,6 +316,12 @@ impl Plan {
         self.limit.as_ref()
     }
 
+    /// For normals from faces: the outline of the faces around each vertex, as where it starts in the list that follows (one
+    /// entry more ends the last; the second number is not used), where the plan has such normals.
+    pub fn outlines(&self) -> Option<(Vec<[u32; 2]>, &[u32])> {
+        self.rings.as_ref().map(|rings| (rings.starts(), &rings.neighbours[..]))
+    }
+
     /// Bytes of the stencil tables and of the limit table: what an evaluation of positions reads. The index buffer and
     /// the rings for normals from faces come on top.
     pub fn n_table_bytes(&self) -> usize {
@@ -393,7 +399,8 @@ fn wants_limit(options: &PlanOptions) -> bool {
 
 pub(super) fn check(options: &PlanOptions, tags: &Tags) -> Result<(), PlanError> {
     let scheme = options.scheme;
-    if !scheme.has_creases() && !(tags.creases.is_empty() && tags.corners.is_empty()) {
+    let has_sharp_tags = !tags.creases.is_empty() || !tags.corners.is_empty();
+    if has_sharp_tags && !scheme.has_creases() {
         return Err(PlanError::NoCreases { scheme });
     }
     if scheme != Scheme::Sqrt3 && !tags.frozen.is_empty() {

@@ -119,6 +119,28 @@ impl<W: Weight> StencilTable<W> {
         self.sources.len()
     }
 
+    /// Sources of all rows, one after another.
+    pub fn sources(&self) -> &[u32] {
+        &self.sources
+    }
+
+    /// Weights, each list of them once for successive rows that share it: see [`row_starts`](Self::row_starts).
+    pub fn weights(&self) -> &[W] {
+        &self.weights
+    }
+
+    /// For each row where its [`sources`](Self::sources) and its [`weights`](Self::weights) start, and one entry more that
+    /// ends the last row.
+    pub fn row_starts(&self) -> Vec<[u32; 2]> {
+        let mut starts = Vec::with_capacity(self.n_rows + 1);
+        for piece in pieces(&self.runs, self.n_rows, 0..self.n_rows) {
+            let entries = piece.entries.step_by(piece.weights.len());
+            starts.extend(entries.map(|entry| [entry as u32, piece.weights.start as u32]));
+        }
+        starts.push([self.sources.len() as u32, 0]);
+        starts
+    }
+
     /// Bytes of sources, weights and runs.
     pub fn n_bytes(&self) -> usize {
         size_of_val(&self.sources[..]) + size_of_val(&self.weights[..]) + size_of_val(&self.runs[..])

@@ -69,11 +69,15 @@ impl<W: Weight> Rows<'_, W> {
         }
         for (near, far) in [(a, b), (b, a)] {
             self.here.load(self.level, near, self.creasing);
-            match self.here.onward(far.0) {
-                Some(beyond) => self.add(VertexId(beyond), share * masks::CURVE_BEYOND),
-                None => {
-                    self.add(near, 2.0 * share * masks::CURVE_BEYOND);
-                    self.add(far, -share * masks::CURVE_BEYOND);
+            for (beyond, weight) in self.here.onward(far.0) {
+                let weight = weight * share * masks::CURVE_BEYOND;
+                match beyond {
+                    _ if weight == 0.0 => {}
+                    Some(beyond) => self.add(VertexId(beyond), weight),
+                    None => {
+                        self.add(near, 2.0 * weight);
+                        self.add(far, -weight);
+                    }
                 }
             }
         }
@@ -81,27 +85,33 @@ impl<W: Weight> Rows<'_, W> {
 
     fn smooth(&mut self, dedge: DedgeId, share: f64) {
         let Some(twin) = self.level.mesh.twin(dedge) else { return };
-        let extraordinary = [dedge, twin].map(|side| self.is_extraordinary(side));
-        let n = extraordinary.iter().filter(|e| **e).count();
-        if n == 0 {
-            return self.eight_points(dedge, twin, share);
+        let [a, b] = [dedge, twin].map(|side| self.extraordinary_part(side));
+        let regular = (1.0 - a) * (1.0 - b);
+        if regular > 0.0 {
+            self.eight_points(dedge, twin, share * regular);
         }
-        for (side, _) in [dedge, twin].into_iter().zip(extraordinary).filter(|(_, is)| *is) {
-            self.around(side, share / n as f64);
+        // Of two extraordinary ends the mean.
+        for (side, part) in [(dedge, a * (1.0 - 0.5 * b)), (twin, b * (1.0 - 0.5 * a))] {
+            if part > 0.0 {
+                self.around(side, share * part);
+            }
         }
     }
 
-    /// Whether the origin of a side is inside the surface, on no crease, and has not six neighbours.
-    fn is_extraordinary(&mut self, side: DedgeId) -> bool {
+    /// How far the origin of a side is extraordinary: inside the surface, with other than six neighbours, and not sharp.
+    fn extraordinary_part(&self, side: DedgeId) -> f64 {
         let mesh = &self.level.mesh;
         let vertex = mesh.origin(side);
-        let on_curve = mesh.outgoing_dedges(vertex).any(|d| self.is_wall(d)) || mesh.is_boundary_vertex(vertex);
-        !on_curve && mesh.valence(vertex) != 6
+        if mesh.is_boundary_vertex(vertex) || mesh.valence(vertex) == 6 {
+            return 0.0;
+        }
+        let sharpest = mesh.outgoing_dedges(vertex).map(|d| self.wall(d)).fold(0.0, f64::max);
+        1.0 - sharpest
     }
 
-    /// Whether the other side of an edge does not count: there is none, or a crease lies between.
-    fn is_wall(&self, side: DedgeId) -> bool {
-        self.level.edge_sharpness(side) >= 1.0
+    /// How little the other side of an edge counts: not at all where there is none or where a crease lies between.
+    fn wall(&self, side: DedgeId) -> f64 {
+        f64::from(self.level.edge_sharpness(side).min(1.0))
     }
 
     /// The mask of the extraordinary vertex at the origin of a side.
@@ -133,14 +143,15 @@ impl<W: Weight> Rows<'_, W> {
                 (side.next(), mesh.target(side), mesh.origin(side)),
                 (side.prev(), mesh.origin(side), mesh.target(side)),
             ] {
-                let weight = share * masks::WINGS;
-                match mesh.twin(inner) {
-                    Some(across) if !self.is_wall(inner) => self.add(mesh.origin(across.prev()), weight),
-                    _ => {
-                        self.add(near, weight);
-                        self.add(apex, weight);
-                        self.add(far, -weight);
-                    }
+                let wall = self.wall(inner);
+                if let Some(across) = mesh.twin(inner).filter(|_| wall < 1.0) {
+                    self.add(mesh.origin(across.prev()), share * (1.0 - wall) * masks::WINGS);
+                }
+                if wall > 0.0 {
+                    let weight = share * wall * masks::WINGS;
+                    self.add(near, weight);
+                    self.add(apex, weight);
+                    self.add(far, -weight);
                 }
             }
         }

@@ -1,0 +1,105 @@
+//! The graphics card's evaluation against the processor's, on the software driver.
+//!
+//! A card may keep more digits than it must and add in pairs, so bits are not compared: positions agree within 2e-6 of the
+//! size (16 units in the last place over some steps), normals within 1e-3 radians where the surface is not crumpled.
+#![cfg(feature = "graphics")]
+
+use glam::Vec3;
+use londra::mesh::shapes::{cabinet, grid_with_hole};
+use londra::mesh::{FaceId, VertexId};
+use londra::render::{Gpu, ShaderSources, SubdividePass};
+use londra::subdiv::{Normals, Plan, PlanOptions, Positions, Scheme, Tags, evaluate_once};
+
+fn gpu() -> Gpu {
+    Gpu::open_software().unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn output(gpu: &Gpu, n: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("output"),
+        size: (12 * n) as u64,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<Vec3> {
+    let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("staging"),
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    gpu.queue.submit([encoder.finish()]);
+    staging.slice(..).map_async(wgpu::MapMode::Read, |mapped| mapped.expect("readable"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+    let bytes = staging.slice(..).get_mapped_range().expect("mapped").to_vec();
+    let floats: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);
+    floats.chunks_exact(3).map(Vec3::from_slice).collect()
+}
+
+fn check(gpu: &Gpu, pass: &SubdividePass, plan: &Plan, control: &[Vec3], what: &str) {
+    assert!(SubdividePass::takes(&gpu.device, plan), "{what}");
+    let n = plan.n_vertices();
+    let (positions, normals) = (output(gpu, n), output(gpu, n));
+    let buffers = pass.load(&gpu.device, &gpu.queue, plan, &positions, &normals);
+    // Twice: the second evaluation must not see anything of the first.
+    for moved in [1.5, 1.0] {
+        let control: Vec<Vec3> = control.iter().map(|p| *p * moved).collect();
+        buffers.write_control(&gpu.queue, &control);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        pass.record(&mut encoder, &buffers);
+        gpu.queue.submit([encoder.finish()]);
+        let (expected, expected_normals) = evaluate_once(plan, &control);
+        let size = expected.iter().fold(0.0_f32, |s, p| s.max(p.abs().max_element()));
+        for (v, (ours, theirs)) in read(gpu, &positions).iter().zip(&expected).enumerate() {
+            assert!((*ours - *theirs).length() <= 2e-6 * size, "{what}: vertex {v} at {ours}, not {theirs}");
+        }
+        if plan.options().normals == Normals::Faces {
+            let close = read(gpu, &normals).iter().zip(&expected_normals).filter(|(a, b)| a.dot(**b) > 1.0 - 1e-6).count();
+            assert!(close as f32 >= 0.999 * n as f32, "{what}: only {close} of {n} normals");
+        }
+    }
+}
+
+#[test]
+fn the_card_puts_a_vertex_elsewhere() {
+    let gpu = gpu();
+    let pass = SubdividePass::new(&gpu.device, &ShaderSources::default()).unwrap_or_else(|e| panic!("{e}"));
+    for shape in cabinet() {
+        let mesh = shape.mesh().expect("in the cabinet");
+        for scheme in Scheme::ALL {
+            let plan = Plan::build(&mesh, scheme, 2).expect("small");
+            check(&gpu, &pass, &plan, &shape.positions, &format!("{} {scheme:?}", shape.name));
+        }
+    }
+    let shape = grid_with_hole();
+    let tags = Tags {
+        creases: vec![(VertexId(14), VertexId(15), 1.5)],
+        holes: vec![FaceId(44)],
+        frozen: vec![FaceId(0)],
+        ..Tags::default()
+    };
+    let mesh = shape.mesh().expect("a grid");
+    for normals in [Normals::Faces, Normals::None] {
+        let options = PlanOptions { normals, ..PlanOptions::new(Scheme::Sqrt3, 4) };
+        let plan = Plan::build_with(&mesh, &tags, &options).expect("small");
+        check(&gpu, &pass, &plan, &shape.positions, "tagged");
+    }
+}
+
+#[test]
+fn a_plan_that_the_card_cannot_evaluate_is_taken() {
+    let gpu = gpu();
+    let mesh = grid_with_hole().mesh().expect("a grid");
+    let takes = |options: PlanOptions| {
+        SubdividePass::takes(&gpu.device, &Plan::build_with(&mesh, &Tags::default(), &options).expect("small"))
+    };
+    let base = PlanOptions::new(Scheme::Loop, 1);
+    assert!(takes(base));
+    assert!(!takes(PlanOptions { levels: 0, ..base }));
+    assert!(!takes(PlanOptions { positions: Positions::Limit, ..base }));
+    assert!(!takes(PlanOptions { normals: Normals::Limit, ..base }));
+}
