@@ -37,6 +37,7 @@ mod rows;
 mod rule;
 mod runs;
 mod scheme;
+pub mod similarity;
 pub mod sqrt3;
 pub mod sqrt3_interpolating;
 mod stencil;
