@@ -58,7 +58,8 @@ fn check(gpu: &Gpu, pass: &SubdividePass, plan: &Plan, control: &[Vec3], what: &
             assert!((*ours - *theirs).length() <= 2e-6 * size, "{what}: vertex {v} at {ours}, not {theirs}");
         }
         if plan.options().normals == Normals::Faces {
-            let close = read(gpu, &normals).iter().zip(&expected_normals).filter(|(a, b)| a.dot(**b) > 1.0 - 1e-6).count();
+            let close =
+                read(gpu, &normals).iter().zip(&expected_normals).filter(|(a, b)| a.dot(**b) > 1.0 - 1e-6).count();
             assert!(close as f32 >= 0.999 * n as f32, "{what}: only {close} of {n} normals");
         }
     }

@@ -55,6 +55,8 @@ pub(super) enum Command {
     Subdivide(Subdivide),
     /// Time a subdivision, frame by frame
     Bench(Bench),
+    /// Report how similar the triangles of a mesh are and what that is worth
+    Similarity(Similarity),
 }
 
 #[derive(Args, Debug)]
@@ -369,6 +371,38 @@ pub(super) struct Bench {
     /// Deliver normals from faces
     #[arg(long)]
     pub normals: bool,
+    /// Print a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Three ways to a finer level, timed: subdividing one triangle of each class and mapping the rest, \
+    subdividing anew, and evaluating a plan.\n\n\
+    Examples:\n  \
+    londra similarity icosahedron\n  \
+    londra similarity part.stl --level 3 --folds --json"
+)]
+pub(super) struct Similarity {
+    /// icosahedron, torus, a file, or - for stdin; tags of a file do not count
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+    /// loop or butterfly
+    #[arg(long, default_value = "loop", value_parser = values::scheme())]
+    pub scheme: Scheme,
+    /// The last level; without it 5 for the icosahedron and 2 for others
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub level: Option<u32>,
+    /// Largest weighted sum of measures at which triangles are similar
+    #[arg(long, value_name = "E", default_value = "1e-8", value_parser = values::epsilon)]
+    pub epsilon: f64,
+    /// Compare the folds around triangles too: exact, and with more classes
+    #[arg(long)]
+    pub folds: bool,
+    /// Take mirror images for different
+    #[arg(long)]
+    pub no_mirrored: bool,
     /// Print a JSON object
     #[arg(long)]
     pub json: bool,

@@ -15,6 +15,7 @@ mod mesh_picture;
 mod output;
 mod picture;
 mod rigs;
+mod similarity;
 mod subdivide;
 mod subject;
 mod values;
@@ -59,5 +60,6 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Bake(args) => bake::run(&args),
         Command::Subdivide(args) => subdivide::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Similarity(args) => similarity::run(&args),
     }
 }

@@ -94,6 +94,15 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     Ok(degrees.to_radians())
 }
 
+/// A tolerance: 0 or more.
+pub(super) fn epsilon(text: &str) -> Result<f64, String> {
+    let epsilon = number(text)?;
+    if epsilon < 0.0 {
+        return Err(format!("the tolerance is {epsilon}, allowed 0 or more"));
+    }
+    Ok(epsilon)
+}
+
 /// A scheme of subdivision by its name.
 pub(super) fn scheme() -> impl TypedValueParser<Value = Scheme> {
     word(&Scheme::ALL.map(|scheme| (scheme.name(), scheme)))
