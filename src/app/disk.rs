@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// The largest text that is read as a breed or a table; a real one has some kilobytes.
 const MAX_TEXT_BYTES: u64 = 4 << 20;
 
+/// The largest mesh file that is read. Every format counts in 32 bits.
+const MAX_MESH_BYTES: u64 = u32::MAX as u64;
+
 /// Why a file was not read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
@@ -22,13 +25,17 @@ pub enum FileError {
         /// The path asked for.
         path: PathBuf,
     },
-    /// Far too large for a text of ours.
-    #[error("{}: has {bytes} bytes, a file of breeds or measures has at most {MAX_TEXT_BYTES}", path.display())]
+    /// Far too large for what it should be.
+    #[error("{}: has {bytes} bytes, {what} has at most {most}", path.display())]
     TooLarge {
         /// The path asked for.
         path: PathBuf,
         /// Its size.
         bytes: u64,
+        /// What it should be.
+        what: &'static str,
+        /// The most that such a file has.
+        most: u64,
     },
     /// Not a text.
     #[error("{}: is not UTF-8 text (byte {at})", path.display())]
@@ -80,6 +87,16 @@ pub enum FileError {
 
 /// The whole text of a file of at most 4 MiB.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let bytes = read_at_most(path, MAX_TEXT_BYTES, "a file of breeds or measures")?;
+    String::from_utf8(bytes).map_err(|e| FileError::NotText { path: path.to_owned(), at: e.utf8_error().valid_up_to() })
+}
+
+/// All bytes of a mesh file of at most 4 GiB.
+pub fn read_mesh_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    read_at_most(path, MAX_MESH_BYTES, "a mesh file")
+}
+
+fn read_at_most(path: &Path, most: u64, what: &'static str) -> Result<Vec<u8>, FileError> {
     let path_buf = || path.to_owned();
     let failed = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => FileError::Missing { path: path_buf() },
@@ -92,11 +109,14 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     // A pipe has no length beforehand, so the limit is also put on what is read.
     let mut bytes = Vec::new();
     let file = fs::File::open(path).map_err(failed)?;
-    io::Read::read_to_end(&mut io::Read::take(file, MAX_TEXT_BYTES + 1), &mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > MAX_TEXT_BYTES {
-        return Err(FileError::TooLarge { path: path_buf(), bytes: metadata.len().max(bytes.len() as u64) });
+    if metadata.len() > most {
+        return Err(FileError::TooLarge { path: path_buf(), bytes: metadata.len(), what, most });
     }
-    String::from_utf8(bytes).map_err(|e| FileError::NotText { path: path_buf(), at: e.utf8_error().valid_up_to() })
+    io::Read::read_to_end(&mut io::Read::take(file, most + 1), &mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > most {
+        return Err(FileError::TooLarge { path: path_buf(), bytes: bytes.len() as u64, what, most });
+    }
+    Ok(bytes)
 }
 
 /// Writes a file whole or not at all: into a temporary file beside the target, which then takes its name.

@@ -2,6 +2,7 @@
 
 use super::values::{self, Setting, Share};
 use crate::render::{Background, Lens, View as Direction};
+use crate::subdiv::{BoundaryRule, Creasing, LoopWeights, Rim, Scheme};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -22,7 +23,8 @@ pub(super) const MOST_LEVEL: i64 = 5;
         londra render --breed pug -o pug.png\n  \
         londra render --breed labrador --blend pug=0.3 --set stop_angle_deg=50 --view side -o mix.png\n  \
         londra export --breed borzoi -o borzoi.glb\n  \
-        londra sheet -o sheet.png\n\n\
+        londra sheet -o sheet.png\n  \
+        londra subdivide cube.obj -o smooth.ply --scheme loop --level 3\n\n\
         'londra COMMAND --help' has more."
 )]
 pub(super) struct Cli {
@@ -49,6 +51,12 @@ pub(super) enum Command {
     Check(Check),
     /// Rebuild the baked assets in Londra's sources
     Bake(Bake),
+    /// Subdivide any mesh
+    Subdivide(Subdivide),
+    /// Time a subdivision, frame by frame
+    Bench(Bench),
+    /// Report how similar the triangles of a mesh are and what that is worth
+    Similarity(Similarity),
 }
 
 #[derive(Args, Debug, Default)]
@@ -265,4 +273,147 @@ pub(super) struct Bake {
     /// The folder of Londra's sources
     #[arg(long, value_name = "FOLDER", default_value = ".")]
     pub root: PathBuf,
+}
+
+/// How fine at most. Faces run out long before: see [`MAX_FACES`](crate::subdiv::MAX_FACES).
+const MOST_STEPS: i64 = 30;
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Reads obj (with the tags t crease, t corner and t hole), 3ds, stl, ply, gltf and glb; writes obj, ply and glb, \
+    and pictures as png.\n\
+    Triangle schemes cut polygons into fans; catmull-clark and doo-sabin keep them.\n\n\
+    Examples:\n  \
+    londra subdivide cube.obj -o smooth.obj --scheme catmull-clark --level 3\n  \
+    londra subdivide part.stl -o part.ply --scheme loop --level 2 --crease-angle 40 --limit --normals\n  \
+    londra subdivide head.ply -o honeycomb.obj --scheme sqrt3 --level 2 --dual\n  \
+    londra subdivide head.glb --scheme sqrt3 --level 6 --adaptive 5 --json"
+)]
+pub(super) struct Subdivide {
+    /// The mesh: a file, or - for stdin
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// The file to write (.obj, .ply, .glb, or .png for a picture), - for OBJ on stdout
+    #[arg(short, long, value_name = "OUT", required_unless_present = "json")]
+    pub output: Option<PathBuf>,
+    /// The scheme of all steps
+    #[arg(long, value_parser = values::scheme())]
+    pub scheme: Scheme,
+    /// Number of steps
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
+    pub level: u32,
+    /// Put the vertices where they go in the limit (sqrt3, loop; the interpolating schemes are there already)
+    #[arg(long)]
+    pub limit: bool,
+    /// Write the three-connected dual of the last level (sqrt3, sqrt3-interpolating): 'middles' adds a vertex on each
+    /// boundary edge that the last step has kept
+    #[arg(
+        long,
+        value_name = "born|middles",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "born",
+        conflicts_with_all = ["adaptive", "freeze_flatter_than"],
+        value_parser = values::word(&[("born", Rim::Born), ("middles", Rim::Middles)])
+    )]
+    pub dual: Option<Rim>,
+    /// Leave faces alone that no face of their two-ring is turned from by more than this, degrees (sqrt3)
+    #[arg(long, value_name = "DEG", value_parser = values::angle, conflicts_with = "adaptive")]
+    pub freeze_flatter_than: Option<f64>,
+    /// Make edges sharp whose two faces are turned against each other by more than this, degrees
+    #[arg(long, value_name = "DEG", value_parser = values::angle)]
+    pub crease_angle: Option<f64>,
+    /// What becomes of boundaries: smooth curves, or these with corners where a vertex has a single face
+    #[arg(
+        long,
+        default_value = "edge",
+        value_parser = values::word(&[("edge", BoundaryRule::EdgeOnly), ("edge-and-corner", BoundaryRule::EdgeAndCorner)])
+    )]
+    pub boundary: BoundaryRule,
+    /// How sharpness is passed on: less by one a step, or averaged along the crease first
+    #[arg(
+        long,
+        default_value = "uniform",
+        value_parser = values::word(&[("uniform", Creasing::Uniform), ("chaikin", Creasing::Chaikin)])
+    )]
+    pub creasing: Creasing,
+    /// Masks of loop: Loop's own or Warren's
+    #[arg(
+        long,
+        default_value = "loop",
+        value_parser = values::word(&[("loop", LoopWeights::Loop), ("warren", LoopWeights::Warren)])
+    )]
+    pub loop_weights: LoopWeights,
+    /// Write normals too: of the faces, or with --limit of the limit surface
+    #[arg(long)]
+    pub normals: bool,
+    /// Refine only where the surface is bent from a face by more than this, degrees (sqrt3); positions are of the limit
+    #[arg(long, value_name = "DEG", value_parser = values::angle)]
+    pub adaptive: Option<f64>,
+    /// Print counts, bytes and times as a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Every frame has other control positions. x_copy compares with copying all that is delivered.\n\n\
+    Examples:\n  \
+    londra bench --scheme sqrt3 --level 4 --normals\n  \
+    londra bench mesh.obj --scheme loop --level 3 --limit --threads 2 --json"
+)]
+pub(super) struct Bench {
+    /// The mesh: a file, or - for stdin; without it, the head's control mesh
+    #[arg(value_name = "MESH")]
+    pub mesh: Option<PathBuf>,
+    /// The scheme of all steps
+    #[arg(long, value_parser = values::scheme())]
+    pub scheme: Scheme,
+    /// Number of steps
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
+    pub level: u32,
+    /// Threads to compute with, 1 to 64
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub threads: u32,
+    /// Deliver limit positions and limit normals (sqrt3, loop)
+    #[arg(long, conflicts_with = "normals")]
+    pub limit: bool,
+    /// Deliver normals from faces
+    #[arg(long)]
+    pub normals: bool,
+    /// Print a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Three ways to a finer level, timed: subdividing one triangle of each class and mapping the rest, \
+    subdividing anew, and evaluating a plan.\n\n\
+    Examples:\n  \
+    londra similarity icosahedron\n  \
+    londra similarity part.stl --level 3 --folds --json"
+)]
+pub(super) struct Similarity {
+    /// icosahedron, torus, a file, or - for stdin; tags of a file do not count
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+    /// loop or butterfly
+    #[arg(long, default_value = "loop", value_parser = values::scheme())]
+    pub scheme: Scheme,
+    /// The last level; without it 5 for the icosahedron and 2 for others
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub level: Option<u32>,
+    /// Largest weighted sum of measures at which triangles are similar
+    #[arg(long, value_name = "E", default_value = "1e-8", value_parser = values::epsilon)]
+    pub epsilon: f64,
+    /// Compare the folds around triangles too: exact, and with more classes
+    #[arg(long)]
+    pub folds: bool,
+    /// Take mirror images for different
+    #[arg(long)]
+    pub no_mirrored: bool,
+    /// Print a JSON object
+    #[arg(long)]
+    pub json: bool,
 }

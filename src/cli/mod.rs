@@ -4,14 +4,19 @@
 
 mod args;
 mod bake;
+mod bench;
 mod check;
+mod control;
 mod export;
 mod failure;
 mod hash;
 mod list;
+mod mesh_picture;
 mod output;
 mod picture;
 mod rigs;
+mod similarity;
+mod subdivide;
 mod subject;
 mod values;
 mod view;
@@ -53,5 +58,8 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Bake(args) => bake::run(&args),
+        Command::Subdivide(args) => subdivide::run(&args),
+        Command::Bench(args) => bench::run(&args),
+        Command::Similarity(args) => similarity::run(&args),
     }
 }

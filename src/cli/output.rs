@@ -49,7 +49,8 @@ pub(super) fn file(target: &Path, bytes: &[u8], json_wanted: bool, facts: Value)
     Ok(())
 }
 
-fn is_stdout(target: &Path) -> bool {
+/// Whether the target is `-`.
+pub(super) fn is_stdout(target: &Path) -> bool {
     target.as_os_str() == "-"
 }
 

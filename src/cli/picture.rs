@@ -92,9 +92,11 @@ fn background(scene: &Scene) -> Background {
     scene.background.unwrap_or_default()
 }
 
-fn offscreen() -> Result<Offscreen, Failure> {
+pub(super) fn offscreen() -> Result<Offscreen, Failure> {
     let gpu = Gpu::open().map_err(|error| {
-        Failure::NoDevice(format!("{error}; the commands export, hash, list and check work without one"))
+        Failure::NoDevice(format!(
+            "{error}; the commands export, hash, list and check work without one, and subdivide for everything but pictures"
+        ))
     })?;
     Offscreen::new(gpu).map_err(Failure::work)
 }

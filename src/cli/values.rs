@@ -2,6 +2,8 @@
 
 use crate::anatomy::{colour, nearest};
 use crate::render::{Background, View};
+use crate::subdiv::Scheme;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// `ID=VALUE`, not yet compared with the table.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +85,41 @@ pub(super) fn views(text: &str) -> Result<Vec<View>, String> {
     Ok(views)
 }
 
+/// Degrees from 0 to 180, as radians.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    let degrees = number(text)?;
+    if !(0.0..=180.0).contains(&degrees) {
+        return Err(format!("the angle is {degrees}, allowed 0 to 180 degrees"));
+    }
+    Ok(degrees.to_radians())
+}
+
+/// A tolerance: 0 or more.
+pub(super) fn epsilon(text: &str) -> Result<f64, String> {
+    let epsilon = number(text)?;
+    if epsilon < 0.0 {
+        return Err(format!("the tolerance is {epsilon}, allowed 0 or more"));
+    }
+    Ok(epsilon)
+}
+
+/// A scheme of subdivision by its name.
+pub(super) fn scheme() -> impl TypedValueParser<Value = Scheme> {
+    word(&Scheme::ALL.map(|scheme| (scheme.name(), scheme)))
+}
+
+/// One of a few words, each with what it stands for.
+pub(super) fn word<T: Copy + Send + Sync + 'static>(
+    words: &[(&'static str, T)],
+) -> impl TypedValueParser<Value = T> + use<T> {
+    let words = words.to_vec();
+    let names: Vec<&'static str> = words.iter().map(|(name, _)| *name).collect();
+    PossibleValuesParser::new(names).try_map(move |text| {
+        let found = words.iter().find(|(name, _)| *name == text);
+        found.map(|(_, value)| *value).ok_or("no such word")
+    })
+}
+
 fn number(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
     number.ok_or_else(|| format!("'{text}' is no number"))
@@ -127,5 +164,7 @@ mod tests {
             assert!(views(text).is_err(), "{text}");
         }
         assert!(pitch("91").is_err() && pitch("x").is_err());
+        assert_eq!(angle("180"), Ok(std::f64::consts::PI));
+        assert!(angle("-1").is_err() && angle("181").is_err() && angle("nan").is_err());
     }
 }

@@ -21,6 +21,9 @@ pub enum Shading {
     Wireframe,
     /// Surfaces, and every edge of the control mesh.
     Control,
+    /// The same in thin lines that lie close: for a mesh that is its own control mesh. A polygon's edges can be given there
+    /// as triangles with a corner twice.
+    Outlined,
 }
 
 /// How one picture is drawn.
@@ -157,6 +160,7 @@ impl Painter {
             Shading::Shaded => None,
             Shading::Wireframe => Some(Lines::Refined),
             Shading::Control => Some(Lines::Control),
+            Shading::Outlined => Some(Lines::Outlines),
         };
         if let Some(lines) = lines {
             self.passes.wire.load(device, queue, frame, lines, drawing.pixels_per_point);

@@ -20,6 +20,8 @@ pub(super) enum Lines {
     Refined,
     /// Edges of the control mesh.
     Control,
+    /// The same edges, in the style of refined ones.
+    Outlines,
 }
 
 #[repr(C)]
@@ -79,7 +81,7 @@ impl WirePass {
         pixels_per_point: f32,
     ) {
         let style = match lines {
-            Lines::Refined => {
+            Lines::Refined | Lines::Outlines => {
                 Style { colour: Vec4::new(0.05, 0.06, 0.08, 0.55), measures: Vec4::new(1.0, 0.002, 0.0, 0.0) }
             }
             Lines::Control => {
@@ -125,7 +127,9 @@ impl Loaded {
         lines: Lines,
     ) -> Self {
         let (edges, n_positions) = match lines {
-            Lines::Control => (unique_edges(frame.control_indices.iter().copied()), frame.control.len()),
+            Lines::Control | Lines::Outlines => {
+                (unique_edges(frame.control_indices.iter().copied()), frame.control.len())
+            }
             Lines::Refined => refined_edges(frame),
         };
         let edge_buffer = buffer(device, "edges", edges.len() * 8, wgpu::BufferUsages::VERTEX);
@@ -161,12 +165,13 @@ impl Loaded {
     }
 }
 
-/// Each undirected edge once, in ascending order.
+/// Each undirected edge once, in ascending order; what has no length is no edge.
 fn unique_edges(indices: impl Iterator<Item = u32> + Clone) -> Vec<[u32; 2]> {
     let corners: Vec<u32> = indices.collect();
     let mut edges: Vec<[u32; 2]> = corners
         .chunks_exact(3)
         .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]])
+        .filter(|[a, b]| a != b)
         .map(|[a, b]| [a.min(b), a.max(b)])
         .collect();
     edges.sort_unstable();
@@ -191,7 +196,7 @@ fn write_positions(queue: &wgpu::Queue, to: &wgpu::Texture, n_positions: usize, 
     let mut texels: Vec<Vec4> = Vec::with_capacity(rows * ROW as usize);
     let point = |p: &Vec3| p.extend(1.0);
     match lines {
-        Lines::Control => texels.extend(frame.control.iter().map(point)),
+        Lines::Control | Lines::Outlines => texels.extend(frame.control.iter().map(point)),
         Lines::Refined => texels.extend(frame.parts.iter().flat_map(|p| p.positions).map(point)),
     }
     debug_assert_eq!(texels.len(), n_positions);
@@ -269,5 +274,6 @@ mod tests {
     fn an_edge_between_two_faces_is_drawn_once() {
         let edges = super::unique_edges([0, 1, 2, 2, 1, 3].into_iter());
         assert_eq!(edges, [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]);
+        assert_eq!(super::unique_edges([3, 1, 1].into_iter()), [[1, 3]], "an edge alone");
     }
 }

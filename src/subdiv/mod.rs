@@ -12,6 +12,7 @@ mod batch;
 pub mod butterfly;
 pub mod catmull_clark;
 mod corners;
+mod crease_angle;
 mod disk;
 pub mod doo_sabin;
 mod dual;
@@ -45,6 +46,7 @@ mod tags;
 mod thirds;
 
 pub use adaptive::Candidate;
+pub use crease_angle::creases_by_angle;
 pub use disk::PlanFileError;
 pub use dual::{DualError, Rim, ThreeConnected};
 pub use evaluate::{Evaluator, Surface, evaluate_once};
