@@ -16,6 +16,8 @@ pub enum ShaderFile {
     Background,
     /// Depth seen from the key light.
     Shadow,
+    /// A plan evaluated on the card.
+    Subdivide,
 }
 
 /// A shader that does not compile, with the place to look at.
@@ -34,7 +36,7 @@ pub struct ShaderError {
 
 impl ShaderFile {
     /// Every file.
-    pub const ALL: [Self; 5] = [Self::Globals, Self::Mesh, Self::Wire, Self::Background, Self::Shadow];
+    pub const ALL: [Self; 6] = [Self::Globals, Self::Mesh, Self::Wire, Self::Background, Self::Shadow, Self::Subdivide];
 
     /// File name inside `shaders/`.
     pub fn file_name(self) -> &'static str {
@@ -44,7 +46,13 @@ impl ShaderFile {
             Self::Wire => "wire.wgsl",
             Self::Background => "background.wgsl",
             Self::Shadow => "shadow.wgsl",
+            Self::Subdivide => "subdivide.wgsl",
         }
+    }
+
+    /// Whether the block of globals belongs to it: to all that draw.
+    pub fn reads_globals(self) -> bool {
+        !matches!(self, Self::Globals | Self::Subdivide)
     }
 }
 
@@ -63,6 +71,7 @@ impl Default for ShaderSources {
             include_str!("../../shaders/wire.wgsl"),
             include_str!("../../shaders/background.wgsl"),
             include_str!("../../shaders/shadow.wgsl"),
+            include_str!("../../shaders/subdivide.wgsl"),
         ];
         Self { texts: texts.map(str::to_owned) }
     }
@@ -81,15 +90,16 @@ impl ShaderSources {
 
     /// A file as it is compiled: the block of globals comes behind it, so that its own lines keep their numbers.
     fn composed(&self, file: ShaderFile) -> String {
-        match file {
-            ShaderFile::Globals => self.text(file).to_owned(),
-            _ => format!("{}\n{}", self.text(file), self.text(ShaderFile::Globals)),
+        if file.reads_globals() {
+            format!("{}\n{}", self.text(file), self.text(ShaderFile::Globals))
+        } else {
+            self.text(file).to_owned()
         }
     }
 
     /// Parses and validates one file without a device.
     pub fn check(&self, file: ShaderFile) -> Result<(), ShaderError> {
-        if file != ShaderFile::Globals {
+        if file.reads_globals() {
             self.check(ShaderFile::Globals)?;
         }
         let source = &self.composed(file);
