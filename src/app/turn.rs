@@ -146,6 +146,7 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
         shading: state.shading,
         background: state.background,
         light_turn: state.light_turn,
+        on_card: state.on_card,
         pixels_per_point,
     }
 }

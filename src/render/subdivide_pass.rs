@@ -93,6 +93,13 @@ impl SubdividePass {
         Ok(Self { stencils, normals, layout })
     }
 
+    /// The same, or nothing on a device without compute shaders.
+    pub(super) fn new_if_able(device: &wgpu::Device, sources: &ShaderSources) -> Result<Option<Self>, ShaderError> {
+        let limits = device.limits();
+        let able = limits.max_compute_workgroup_size_x >= WORKGROUP && limits.max_storage_buffers_per_shader_stage >= 5;
+        able.then(|| Self::new(device, sources)).transpose()
+    }
+
     /// Whether a plan can be evaluated here: positions of the last level, normals from faces or none, at least one step,
     /// and tables that fit the device.
     pub fn takes(device: &wgpu::Device, plan: &Plan) -> bool {
