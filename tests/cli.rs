@@ -1,74 +1,14 @@
 //! The built program, driven as a script would: exit codes, what goes to stdout and what to stderr, what stays untouched.
 #![cfg(feature = "graphics")]
 
+#[path = "support/program.rs"]
+mod program;
+
+use program::{command, done, finished, folder, londra, names_in, output, png_size, refused, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 use tempfile::TempDir;
-
-struct Run {
-    code: i32,
-    stdout: String,
-    stderr: String,
-}
-
-fn command(args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_londra"));
-    command.args(args).stdin(Stdio::null());
-    for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "LONDRA_RIGS"] {
-        command.env_remove(name);
-    }
-    command
-}
-
-fn output(args: &[&str]) -> Output {
-    command(args).output().unwrap()
-}
-
-fn finished(output: Output) -> Run {
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let code = output.status.code().expect("not killed");
-    let run = Run { code, stdout: text(output.stdout), stderr: text(output.stderr) };
-    assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
-    run
-}
-
-fn londra(args: &[&str]) -> Run {
-    finished(output(args))
-}
-
-/// The command must succeed.
-fn done(args: &[&str]) -> Run {
-    let run = londra(args);
-    assert_eq!(run.code, 0, "{args:?}: {}", run.stderr);
-    run
-}
-
-/// The command must refuse with this code, say all of these words, and print no result.
-fn refused(args: &[&str], code: i32, words: &[&str]) -> Run {
-    let run = londra(args);
-    assert_eq!(run.code, code, "{args:?}: {}{}", run.stdout, run.stderr);
-    assert_eq!(run.stdout, "", "{args:?}");
-    for word in words {
-        assert!(run.stderr.contains(word), "{args:?} should say {word:?}: {}", run.stderr);
-    }
-    run
-}
-
-fn folder() -> TempDir {
-    tempfile::tempdir().unwrap()
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
 
 fn rig(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("rigs").join(name)
@@ -101,7 +41,9 @@ fn help_and_version_go_to_stdout() {
     assert_eq!(done(&["--version"]).stdout, format!("londra {}\n", env!("CARGO_PKG_VERSION")));
     let help = done(&["--help"]);
     assert_eq!(help.stderr, "");
-    for command in ["view", "render", "sheet", "export", "hash", "list", "check", "bake"] {
+    for command in
+        ["view", "render", "sheet", "export", "hash", "list", "check", "bake", "subdivide", "bench", "similarity"]
+    {
         assert!(help.stdout.contains(command));
         let own = done(&[command, "--help"]);
         assert!(own.stdout.contains(&format!("londra {command}")), "{command} shows an example");
@@ -334,11 +276,6 @@ fn a_reader_who_goes_away_is_no_panic() {
 }
 
 // ---- pictures ----
-
-fn png_size(bytes: &[u8]) -> (u32, u32) {
-    let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
-    (reader.info().width, reader.info().height)
-}
 
 #[test]
 fn render_draws_a_png_of_the_size_asked_for() {

@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 use std::sync::Arc;
 
 /// Width and height, pixels.
-const SIZE: [u32; 2] = [400, 400];
+const SIZE: [u32; 2] = [360, 360];
 /// Part of the picture left free around the mesh.
 const MARGIN: f32 = 0.06;
 /// Degrees around the vertical and above the horizontal.

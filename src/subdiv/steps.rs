@@ -40,8 +40,17 @@ impl<W: Weight> Steps<W> {
     pub(super) fn build(prepared: Prepared, options: &PlanOptions) -> Result<Steps<W>, PlanError> {
         let Prepared { level, vertices, faces, n_control } = prepared;
         let too_many = PlanError::TooManyFaces { levels: options.levels, n_control_faces: faces.len() };
-        if let Last::Triangles(level) = &level {
-            check_size(options, faces.len(), level.n_active)?;
+        match &level {
+            Last::Triangles(level) => check_size(options, faces.len(), level.n_active)?,
+            // Sides grow by four a step from the start; those of an open mesh under Doo-Sabin by less, which shows below.
+            Last::Polygons(level) if options.scheme == Scheme::CatmullClark || level.mesh.n_boundary_edges() == 0 => {
+                let growth = 4_u64.checked_pow(options.levels.saturating_sub(1));
+                let n_sides = growth.and_then(|growth| growth.checked_mul(level.mesh.n_dedges() as u64));
+                if options.levels > 0 && n_sides.is_none_or(|n| n > MAX_FACES) {
+                    return Err(too_many);
+                }
+            }
+            Last::Polygons(_) => {}
         }
         let mut steps = Steps { counts: vec![level.counts()], tables: Vec::new(), last: level, face_parent: faces };
         steps.tables.extend(vertices.map(|vertices| StencilTable::selection(n_control, &vertices)));
