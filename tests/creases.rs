@@ -8,14 +8,18 @@ mod tables;
 mod walk;
 
 use glam::DVec3;
-use londra::mesh::{DedgeMesh, PolygonMesh};
+use londra::math::rng::Rng;
+use londra::mesh::shapes::{disk, fan, grid, pole, tetrahedron};
+use londra::mesh::{DedgeMesh, PolygonMesh, VertexId};
 use londra::subdiv::{Creasing, DoublePlan, INFINITE_SHARPNESS, Plan, PlanOptions, Scheme, Tags};
 use random::Sample;
 
 const CREASED: [Scheme; 4] = [Scheme::Sqrt3, Scheme::Loop, Scheme::Butterfly, Scheme::CatmullClark];
 
 fn samples() -> Vec<Sample> {
-    random::all(4)
+    let shapes = [disk(5), fan(3), pole(8), tetrahedron(), grid(4, 3)];
+    let jittered = shapes.iter().enumerate().map(|(i, s)| Sample::of(s).jittered(&mut Rng::new(i as u64)));
+    jittered.chain((0..5).flat_map(|seed| [random::closed(seed), random::open(seed)])).collect()
 }
 
 /// Random creases and corners, all of one sharpness.
@@ -87,7 +91,8 @@ fn the_surface_jumps_as_sharpness_grows() {
     let little = 1e-4_f32;
     for scheme in CREASED {
         for (seed, sample) in samples().iter().enumerate() {
-            let options = PlanOptions::new(scheme, 4);
+            // For √3 a step of sharpness is two of the plan.
+            let options = PlanOptions::new(scheme, if scheme == Scheme::Sqrt3 { 6 } else { 3 });
             let of = |sharpness: f32| refined(sample, &tags(&sample.mesh(), seed as u64, sharpness), &options);
             for sharpness in [0.5, 1.0, 1.5, 2.0, 3.0] {
                 let (less, more) = (of(sharpness - little), of(sharpness + little));
@@ -111,10 +116,9 @@ fn the_surface_jumps_as_sharpness_grows() {
 fn a_fading_crease_bends_the_one_that_stays() {
     for scheme in CREASED {
         for n in 4..=9 {
-            let sample =
-                Sample::of(&londra::mesh::shapes::disk(n)).jittered(&mut londra::math::rng::Rng::new(n.into()));
+            let sample = Sample::of(&disk(n)).jittered(&mut Rng::new(n.into()));
             let options = PlanOptions::new(scheme, 4);
-            let spoke = |i: u32, sharpness: f32| (londra::mesh::VertexId(0), londra::mesh::VertexId(1 + i), sharpness);
+            let spoke = |i: u32, sharpness: f32| (VertexId(0), VertexId(1 + i), sharpness);
             let with = |sharpness: f32| {
                 let mut creases = vec![spoke(0, INFINITE_SHARPNESS)];
                 creases.extend((sharpness > 0.0).then(|| spoke(2, sharpness)));

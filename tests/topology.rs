@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use londra::mesh::shapes::{Shape, cabinet, disk, fan, grid_with_hole, pillow, tetrahedron, torus, triangle, tube};
-use londra::mesh::{DedgeId, DedgeMesh, FaceId, InvariantError, MeshError, VertexId};
+use londra::mesh::shapes::{
+    Shape, cabinet, disk, fan, grid_with_hole, octahedron, pillow, tetrahedron, torus, triangle, tube,
+};
+use londra::mesh::{DedgeId, DedgeMesh, FaceId, InvariantError, MeshError, PolygonMesh, VertexId};
+use londra::subdiv::{Normals, Plan, PlanError, PlanOptions, Positions, Scheme, TagError, Tags, levels_of};
 
 fn mesh(shape: &Shape) -> DedgeMesh {
     shape.mesh().unwrap_or_else(|e| panic!("{}: {e}", shape.name))
@@ -190,6 +193,79 @@ fn malformed_input_is_accepted_or_blamed_on_the_wrong_element() {
         let found = DedgeMesh::from_triangles(n_vertices, &triangles);
         assert_eq!(found.as_ref().err(), Some(&expected), "{name}");
         assert!(expected.to_string().len() > 20, "{name}: the message says too little");
+    }
+}
+
+#[test]
+fn a_malformed_tag_is_accepted_or_blamed_on_the_wrong_element() {
+    let mesh = mesh(&tetrahedron());
+    let (f, v) = (FaceId, VertexId);
+    let crease =
+        |from: u32, to: u32, sharpness: f32| Tags { creases: vec![(v(from), v(to), sharpness)], ..Tags::default() };
+    let corner = |vertex: u32, sharpness: f32| Tags { corners: vec![(v(vertex), sharpness)], ..Tags::default() };
+    let frozen = |face: u32| Tags { frozen: vec![f(face)], ..Tags::default() };
+    let holes = |faces: &[u32]| Tags { holes: faces.iter().map(|&face| f(face)).collect(), ..Tags::default() };
+    let sqrt3 = PlanOptions::new(Scheme::Sqrt3, 1);
+    let no_vertex = |vertex: u32| TagError::NoSuchVertex { vertex: v(vertex), n_vertices: 4 };
+    let cases: Vec<(Tags, TagError)> = vec![
+        (crease(0, 4, 1.0), no_vertex(4)),
+        (crease(u32::MAX, 0, 1.0), no_vertex(u32::MAX)),
+        (crease(2, 2, 1.0), TagError::NoSuchEdge { from: v(2), to: v(2) }),
+        (crease(0, 1, -0.5), TagError::Sharpness { sharpness: -0.5 }),
+        (crease(0, 1, f32::NEG_INFINITY), TagError::Sharpness { sharpness: f32::NEG_INFINITY }),
+        (corner(4, 1.0), no_vertex(4)),
+        (corner(0, -1.0), TagError::Sharpness { sharpness: -1.0 }),
+        (frozen(4), TagError::NoSuchFace { face: f(4), n_faces: 4 }),
+        (holes(&[1, 7]), TagError::NoSuchFace { face: f(7), n_faces: 4 }),
+        (holes(&[0, 1, 2, 3]), TagError::Holes(MeshError::NoFaces)),
+    ];
+    for (tags, expected) in cases {
+        let found = Plan::build_with(&mesh, &tags, &sqrt3).err();
+        assert_eq!(found, Some(PlanError::Tags(expected.clone())), "{tags:?}");
+        assert_eq!(levels_of(&mesh, &tags, &sqrt3).err(), found, "{tags:?}");
+        assert!(expected.to_string().len() > 30, "{expected}: the message says too little");
+        // The same tags on the same faces as polygons.
+        if tags.frozen.is_empty() {
+            let options = PlanOptions::new(Scheme::CatmullClark, 1);
+            let found = Plan::build_polygons(&PolygonMesh::from(&mesh), &tags, &options).err();
+            assert_eq!(found, Some(PlanError::Tags(expected)), "{tags:?}");
+        }
+    }
+    assert!(matches!(
+        Plan::build_with(&mesh, &crease(0, 1, f32::NAN), &sqrt3),
+        Err(PlanError::Tags(TagError::Sharpness { sharpness })) if sharpness.is_nan()
+    ));
+    // Two holes that leave a bow tie, faces 0 and 2 of a disk of four: the vertex becomes two.
+    let split = Plan::build_with(&self::mesh(&disk(4)), &holes(&[0, 2]), &sqrt3).expect("two triangles");
+    assert_eq!((split.n_vertices_at(0), split.boundary_loops().len(), split.n_control()), (6, 2, 5));
+    // An edge that is not there: across the square of an octahedron.
+    let found = Plan::build_with(&self::mesh(&octahedron()), &crease(0, 1, 1.0), &sqrt3).err();
+    assert_eq!(found, Some(PlanError::Tags(TagError::NoSuchEdge { from: v(0), to: v(1) })));
+}
+
+#[test]
+fn an_option_that_a_scheme_has_no_rule_for_is_accepted() {
+    let mesh = mesh(&tetrahedron());
+    let crease = Tags { creases: vec![(VertexId(0), VertexId(1), 1.0)], ..Tags::default() };
+    let corner = Tags { corners: vec![(VertexId(0), 1.0)], ..Tags::default() };
+    let frozen = Tags { frozen: vec![FaceId(0)], ..Tags::default() };
+    for scheme in Scheme::ALL {
+        let options = PlanOptions::new(scheme, 1);
+        let error = |tags: &Tags, options: &PlanOptions| Plan::build_with(&mesh, tags, options).err();
+        let expected = (!scheme.has_creases()).then_some(PlanError::NoCreases { scheme });
+        assert_eq!(error(&crease, &options), expected, "{}", scheme.name());
+        assert_eq!(error(&corner, &options), expected, "{}", scheme.name());
+        let expected = (scheme != Scheme::Sqrt3).then_some(PlanError::NoFrozenFaces { scheme });
+        assert_eq!(error(&frozen, &options), expected, "{}", scheme.name());
+        let expected = (!scheme.has_limits()).then_some(PlanError::NoLimits { scheme });
+        let limit_normals = PlanOptions { normals: Normals::Limit, ..options };
+        assert_eq!(error(&Tags::default(), &limit_normals), expected, "{}", scheme.name());
+        // Control points of an interpolating scheme are limit points.
+        let limits = PlanOptions { positions: Positions::Limit, ..options };
+        let expected = expected.filter(|_| !scheme.is_interpolating());
+        assert_eq!(error(&Tags::default(), &limits), expected, "{}", scheme.name());
+        let expected = (!scheme.is_triangular()).then_some(PlanError::NotPolygons { scheme });
+        assert_eq!(levels_of(&mesh, &Tags::default(), &options).err(), expected, "{}", scheme.name());
     }
 }
 

@@ -5,9 +5,10 @@
 use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use londra::anatomy::{Breed, ParamTable};
-use londra::app::{Document, EditorState, files, panels};
+use londra::app::{Command, Document, EditorState, files, panels};
 use londra::frame::{Pipeline, StageHashes};
 use londra::rig::Rig;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 fn state() -> EditorState {
@@ -184,4 +185,124 @@ fn choosing_a_breed_can_be_undone() {
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run();
     assert_eq!(*harness.state().breed(), first);
+}
+
+/// Changes a measure and presses Ctrl+Q.
+fn asked_to_leave() -> Harness<'static, EditorState> {
+    let mut harness = harness();
+    let (label, _, other) = measure(harness.state(), "cranial_length_mm");
+    harness.get_by_role_and_label(Role::Slider, &label).set_value_accesskit(other);
+    harness.run();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Q);
+    harness.run();
+    assert!(harness.state().asks_to_quit && harness.state().commands.is_empty());
+    harness
+}
+
+#[test]
+fn leaving_with_changes_asks_and_staying_keeps_them() {
+    type Answer = fn(&Harness<'static, EditorState>);
+    let answers: [Answer; 2] = [|h| h.get_by_label("Stay").click(), |h| h.key_press(egui::Key::Escape)];
+    for stay in answers {
+        let mut harness = asked_to_leave();
+        let breed = harness.state().breed().clone();
+        stay(&harness);
+        harness.run();
+        let state = harness.state();
+        assert!(!state.asks_to_quit && state.commands.is_empty() && state.document().is_changed());
+        assert_eq!(*state.breed(), breed);
+    }
+    for (answer, command) in [("Leave without saving", Command::Quit), ("Save and leave", Command::SaveAndQuit)] {
+        let mut harness = asked_to_leave();
+        harness.get_by_label(answer).click();
+        harness.run();
+        assert_eq!(harness.state().commands, [command]);
+        assert!(!harness.state().asks_to_quit);
+    }
+    let mut unchanged = harness();
+    unchanged.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Q);
+    unchanged.run();
+    assert_eq!(unchanged.state().commands, [Command::Quit]);
+}
+
+#[test]
+fn a_typed_path_can_be_opened_saved_to_and_exported_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let there = folder.path().join("there.ron");
+    std::fs::write(&there, "").unwrap();
+    type Make = fn(PathBuf) -> Command;
+    let buttons: [(&str, Make); 3] = [
+        ("Open this path", Command::OpenPath),
+        ("Save this path", Command::SavePath),
+        ("Export this path", Command::ExportPath),
+    ];
+    for (button, command) in buttons {
+        let mut harness = harness();
+        harness.get_by_label(button).click();
+        harness.run();
+        assert!(harness.state().commands.is_empty(), "{button} without a path");
+        // A file that is there is what Enter alone would open, never replace.
+        harness.state_mut().typed_path = format!(" {} ", there.display());
+        harness.run();
+        harness.get_by_label(button).click();
+        harness.run();
+        assert_eq!(harness.state().commands, [command(there.clone())]);
+    }
+    for (name, command) in
+        [("there.ron", Command::OpenPath as Make), ("new.ron", Command::SavePath), ("a.glb", Command::ExportPath)]
+    {
+        let mut harness = harness();
+        let path = folder.path().join(name);
+        harness.get_by_role_and_label(Role::TextInput, "File").focus();
+        harness.run();
+        harness.get_by_role_and_label(Role::TextInput, "File").type_text(&path.display().to_string());
+        harness.run();
+        harness.key_press(egui::Key::Enter);
+        harness.run();
+        assert_eq!(harness.state().commands, [command(path)]);
+    }
+}
+
+#[test]
+fn a_file_held_over_the_window_is_told_what_letting_go_does() {
+    let mut harness = harness();
+    let hint = "Let go to open the breed file";
+    assert!(harness.query_by_label(hint).is_none());
+    harness.input_mut().hovered_files.push(egui::HoveredFile::default());
+    // It is measured in one picture and shown in the next.
+    harness.step();
+    harness.step();
+    assert!(harness.query_by_label(hint).is_some());
+}
+
+#[test]
+fn rows_out_of_sight_keep_their_room() {
+    let mut has_fonts = false;
+    let mut harness = Harness::builder().with_size([1100.0, 500.0]).build_ui_state(
+        move |ui, state: &mut EditorState| {
+            if !std::mem::replace(&mut has_fonts, true) {
+                panels::set_fonts(ui.ctx());
+            }
+            panels::show(state, ui, None);
+        },
+        state(),
+    );
+    harness.run();
+    let specs = harness.state().table.specs.clone();
+    let (first, last) = (&specs[0].label, &specs[specs.len() - 1].label);
+    let is_there = |h: &Harness<'_, EditorState>, label: &str| h.query_by_role_and_label(Role::Slider, label).is_some();
+    assert!(is_there(&harness, first) && !is_there(&harness, last));
+    for _ in 0..60 {
+        harness.event(egui::Event::PointerMoved(egui::pos2(150.0, 400.0)));
+        harness.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: egui::vec2(0.0, -200.0),
+            phase: egui::TouchPhase::Move,
+            modifiers: egui::Modifiers::NONE,
+            source: egui::MouseWheelSource::Wheel,
+        });
+        harness.step();
+    }
+    harness.run();
+    assert!(!is_there(&harness, first) && is_there(&harness, last));
 }

@@ -24,6 +24,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("Ctrl+Shift+S", "save under another name"),
     ("Ctrl+E", "export as glTF"),
     ("F12", "screenshot"),
+    ("Ctrl+Q", "leave"),
     ("?", "this list"),
 ];
 
@@ -122,6 +123,9 @@ fn file_keys(state: &mut EditorState, ctx: &egui::Context) {
     }
     if taken(Modifiers::COMMAND, Key::E) {
         state.commands.push_back(Command::Export);
+    }
+    if taken(Modifiers::COMMAND, Key::Q) {
+        state.request_quit();
     }
     if taken(Modifiers::NONE, Key::F12) {
         state.commands.push_back(Command::Screenshot);

@@ -1,7 +1,7 @@
 //! The window: a head, its measures as sliders, its files.
 //!
 //! [`EditorState`] knows what is edited and needs no window; `panels` shows it, `input` turns mouse and keys into
-//! changes of it, `run` owns the window, the device and the file system.
+//! changes of it, `turn` makes one picture, `run` owns the window, the device and the file system.
 
 mod camera_control;
 pub mod disk;
@@ -9,11 +9,14 @@ pub mod files;
 mod history;
 mod host;
 pub mod input;
+mod measure;
 pub mod panels;
 mod run;
 mod scene;
 mod state;
+mod turn;
 mod watch;
 
+pub use measure::{Measured, measure};
 pub use run::{AppError, Launch, run};
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};

@@ -98,7 +98,7 @@ fn reason(error: &winit::error::EventLoopError) -> String {
 }
 
 /// The state before the window is there, so that a wrong file is told on the command line.
-fn begin(launch: &Launch) -> Result<EditorState, AppError> {
+pub(super) fn begin(launch: &Launch) -> Result<EditorState, AppError> {
     let (table, breeds) = files::read_rigs(launch.rigs.as_deref()).map_err(AppError::File)?;
     let document = files::first_document(&table, &breeds, launch.breed.as_deref()).map_err(AppError::File)?;
     Ok(EditorState::new(table, breeds, document))

@@ -100,6 +100,8 @@ pub enum Command {
     ExportPath(PathBuf),
     /// Write the picture beside the breed or in the working folder.
     Screenshot,
+    /// Save, and close the window if that went well.
+    SaveAndQuit,
     /// Close the window; unsaved changes were given up.
     Quit,
 }
@@ -143,6 +145,8 @@ pub struct EditorState {
     pub wants_fit: bool,
     /// Of the lights around the vertical, radians.
     pub light_turn: f32,
+    /// Whether the graphics card evaluates the skin that is drawn. The processor does in any case: it is what is exported.
+    pub on_card: bool,
     /// Behind the head.
     pub background: Background,
     /// What is looked for among the measures.
@@ -184,6 +188,7 @@ impl EditorState {
             camera: Camera::at(View::Portrait, None, Lens::default()),
             wants_fit: true,
             light_turn: 0.0,
+            on_card: false,
             background: Background::default(),
             search: String::new(),
             only_changed: false,

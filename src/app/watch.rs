@@ -1,7 +1,11 @@
 //! Hot reload: which files on disk have changed.
 
 use notify::{RecursiveMode, Watcher};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// The table's file in a folder like `rigs/`.
+pub(super) const TABLE: &str = "anatomy.ron";
 
 /// Watches folders and tells of every file in them that was written.
 pub(super) struct Watch {
@@ -32,5 +36,34 @@ impl Watch {
         if watched {
             self.folders.push(folder.to_owned());
         }
+    }
+}
+
+/// A table that could not be taken because a breed beside it was broken is tried again when a breed has changed: adds it to
+/// what is to be read. `problems`: by file name.
+pub(super) fn retry_table(changed: &mut BTreeSet<PathBuf>, problems: &BTreeMap<String, String>, rigs: Option<&Path>) {
+    let Some(rigs) = rigs else { return };
+    if problems.contains_key(TABLE) && changed.iter().any(|p| p.extension().is_some_and(|e| e == "ron")) {
+        changed.insert(rigs.join(TABLE));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_held_up_by_a_breed_is_read_again_with_the_breed() {
+        let breed = PathBuf::from("rigs/breeds/pug.ron");
+        let shader = PathBuf::from("shaders/mesh.wgsl");
+        let held_up = BTreeMap::from([(TABLE.to_owned(), "pug.ron:1:1: broken".to_owned())]);
+        let read = |changed: &Path, problems: &BTreeMap<String, String>| {
+            let mut changed = BTreeSet::from([changed.to_owned()]);
+            retry_table(&mut changed, problems, Some(Path::new("rigs")));
+            changed.contains(Path::new("rigs/anatomy.ron"))
+        };
+        assert!(read(&breed, &held_up));
+        assert!(!read(&shader, &held_up), "a shader puts no table right");
+        assert!(!read(&breed, &BTreeMap::new()), "a table that is right is left alone");
     }
 }

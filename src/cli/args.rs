@@ -59,12 +59,18 @@ pub(super) enum Command {
     Similarity(Similarity),
 }
 
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron")]
+#[derive(Args, Debug, Default)]
+#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron\n  londra view --measure 200 --json")]
 pub(super) struct View {
     /// A breed's file to open
     #[arg(value_name = "FILE.ron")]
     pub file: Option<PathBuf>,
+    /// Open no window: run so many of its pictures with a slider moving, and print what its own work takes
+    #[arg(long, value_name = "PICTURES", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub measure: Option<u32>,
+    /// Print a JSON object
+    #[arg(long, requires = "measure")]
+    pub json: bool,
 }
 
 /// Changes of a breed that every command understands.
@@ -86,6 +92,14 @@ pub(super) struct Subject {
     pub breed: String,
     #[command(flatten)]
     pub changes: Changes,
+}
+
+/// How the result is told.
+#[derive(Args, Debug)]
+pub(super) struct Report {
+    /// Print JSON: one object, or an array of objects where there are several
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// How finely it is made.
@@ -119,9 +133,8 @@ pub(super) struct Target {
     /// The file to write, - for stdout
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Print what was made as a JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]
@@ -218,9 +231,8 @@ pub(super) struct Hash {
     pub subject: Subject,
     #[command(flatten)]
     pub detail: Detail,
-    /// Print a JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]
@@ -228,9 +240,8 @@ pub(super) struct Hash {
 pub(super) struct List {
     /// What to list
     pub what: Listed,
-    /// Print a JSON array of objects
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 /// What can be listed.
@@ -249,9 +260,8 @@ pub(super) struct Check {
     /// Breed files, or a table of parameters
     #[arg(value_name = "FILE.ron", required = true)]
     pub files: Vec<PathBuf>,
-    /// Print a JSON array of objects
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub report: Report,
 }
 
 #[derive(Args, Debug)]

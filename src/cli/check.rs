@@ -30,7 +30,7 @@ pub(super) fn run(args: &Check) -> Result<(), Failure> {
             }
         }
     }
-    if args.json {
+    if args.report.json {
         output::json(&Value::Array(objects))?;
     } else if !lines.is_empty() {
         output::result(&lines.join("\n"))?;

@@ -8,7 +8,7 @@ use serde_json::json;
 
 /// Writes one head as binary glTF.
 pub(super) fn run(args: &Export) -> Result<(), Failure> {
-    output::check_target(&args.target.output, args.target.json)?;
+    output::check_target(&args.target.output, args.target.report.json)?;
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
@@ -19,5 +19,5 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
         "output": args.target.output.display().to_string(), "bytes": bytes.len(), "breed": breed.id,
         "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
     });
-    output::file(&args.target.output, &bytes, args.target.json, facts)
+    output::file(&args.target.output, &bytes, args.target.report.json, facts)
 }

@@ -19,7 +19,7 @@ pub(super) fn run(args: &Hash) -> Result<(), Failure> {
         ("indices", hashes.indices),
     ];
     let [control, positions, normals, indices] = stages.map(|(_, hash)| format!("{hash:016x}"));
-    if args.json {
+    if args.report.json {
         return output::json(&json!({
             "breed": breed.id, "label": breed.label, "level": args.detail.level, "control": control,
             "positions": positions, "normals": normals, "indices": indices,

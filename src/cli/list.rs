@@ -12,7 +12,7 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
     match args.what {
         Listed::Breeds => {
             let breeds = rigs.ids().iter().map(|id| rigs.breed(id)).collect::<Result<Vec<_>, _>>()?;
-            if args.json {
+            if args.report.json {
                 return output::json(&breeds.iter().map(|b| json!({ "id": b.id, "label": b.label })).collect());
             }
             let width = breeds.iter().map(|b| b.id.chars().count()).max().unwrap_or(0);
@@ -21,7 +21,7 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
         }
         Listed::Parameters => {
             let specs = &rigs.table.specs;
-            if args.json {
+            if args.report.json {
                 return output::json(&specs.iter().map(as_json).collect());
             }
             let width = specs.iter().map(|s| s.id.len()).max().unwrap_or(0);

@@ -49,7 +49,7 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command.unwrap_or(Command::View(args::View { file: None })) {
+    match cli.command.unwrap_or(Command::View(args::View::default())) {
         Command::View(args) => view::run(&args),
         Command::Render(args) => picture::render(&args),
         Command::Sheet(args) => picture::sheet(&args),

@@ -14,7 +14,7 @@ const MARGIN: f32 = 0.08;
 
 /// Draws one head.
 pub(super) fn render(args: &Render) -> Result<(), Failure> {
-    output::check_target(&args.target.output, args.target.json)?;
+    output::check_target(&args.target.output, args.target.report.json)?;
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
@@ -30,12 +30,12 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
     });
-    write(args.target.output.as_path(), args.target.json, &picture, facts)
+    write(args.target.output.as_path(), args.target.report.json, &picture, facts)
 }
 
 /// Draws many heads in many views.
 pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
-    output::check_target(&args.target.output, args.target.json)?;
+    output::check_target(&args.target.output, args.target.report.json)?;
     let rigs = Rigs::open()?;
     let breeds: Vec<Breed> =
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
@@ -63,7 +63,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         "breeds": breeds.iter().map(|b| b.id.as_str()).collect::<Vec<_>>(),
         "views": args.views.iter().map(|v| v.name()).collect::<Vec<_>>(), "level": args.detail.level,
     });
-    write(args.target.output.as_path(), args.target.json, &picture, facts)
+    write(args.target.output.as_path(), args.target.report.json, &picture, facts)
 }
 
 /// The breeds asked for: `--breed` stands for itself, beside `--breeds` unless that is `all`.

@@ -1,9 +1,10 @@
-//! `londra view`.
+//! `londra view`: the window, and what its work takes.
 
-use super::Failure;
 use super::args::View;
 use super::rigs::{self, Rigs};
-use crate::app::{self, Launch};
+use super::{Failure, output};
+use crate::app::{self, AppError, Launch};
+use serde_json::json;
 use std::path::Path;
 
 /// Opens the window.
@@ -15,16 +16,40 @@ pub(super) fn run(args: &View) -> Result<(), Failure> {
     if let Some(file) = &args.file {
         rigs.load(file)?;
     }
-    if let Some(missing) = missing_display() {
-        return Err(Failure::NoDevice(missing));
-    }
     // With a folder in it the word is a path, whatever it ends in.
     let breed = args.file.as_ref().map(|file| Path::new(".").join(file).display().to_string());
     let launch = Launch { breed, rigs: folder, ..here };
-    app::run(launch).map_err(|error| match error.is_missing_device() {
+    if let Some(n_pictures) = args.measure {
+        return measure(&launch, n_pictures, args.json);
+    }
+    if let Some(missing) = missing_display() {
+        return Err(Failure::NoDevice(missing));
+    }
+    app::run(launch).map_err(failure)
+}
+
+/// Prints what the window's own work takes.
+fn measure(launch: &Launch, n_pictures: u32, as_json: bool) -> Result<(), Failure> {
+    let m = app::measure(launch, n_pictures as usize).map_err(failure)?;
+    if as_json {
+        return output::json(&json!({
+            "pictures": n_pictures, "adapter": m.adapter, "level": m.level, "triangles": m.n_triangles,
+            "own_ms": m.own_ms, "own_slow_ms": m.own_slow_ms, "panels_ms": m.panels_ms, "head_ms": m.head_ms,
+            "record_ms": m.record_ms, "submit_ms": m.submit_ms,
+        }));
+    }
+    output::result(&format!(
+        "own work {:.2} ms a picture (median of {n_pictures}; one in twenty takes {:.2} or more): panels {:.2}, head \
+         {:.2}, uploads and passes {:.2}\nhanding over {:.2} ms\nlevel {}, {} triangles, {}",
+        m.own_ms, m.own_slow_ms, m.panels_ms, m.head_ms, m.record_ms, m.submit_ms, m.level, m.n_triangles, m.adapter
+    ))
+}
+
+fn failure(error: AppError) -> Failure {
+    match error.is_missing_device() {
         true => Failure::NoDevice(error.to_string()),
         false => Failure::work(error),
-    })
+    }
 }
 
 /// What to say where no window can be opened, before any library tries.

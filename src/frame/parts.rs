@@ -3,6 +3,7 @@
 //! Lifetimes: [`PartTopology`] changes with the level of subdivision only, the value slices of a [`Part`] whenever the
 //! breed or its look does. [`Revisions`] says which, so that a consumer uploads what moved and nothing else.
 
+use crate::subdiv::Plan;
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -84,6 +85,9 @@ pub struct Frame<'a> {
     pub control: &'a [Vec3],
     /// Triangles of the control mesh, for drawing it as lines.
     pub control_indices: &'a [u32],
+    /// The plan that makes the positions and normals of the first part from `control`, for who would evaluate it once
+    /// more; none where there is no such plan.
+    pub plan: Option<&'a Plan>,
     /// What has changed since the last frame.
     pub revisions: Revisions,
 }

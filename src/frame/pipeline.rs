@@ -186,6 +186,7 @@ impl Pipeline {
             parts: self.parts.iter().map(Values::part).collect(),
             control: &self.deformed.control,
             control_indices: self.rig.mesh().indices(),
+            plan: Some(&self.plan),
             revisions: self.revisions,
         }
     }

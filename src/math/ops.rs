@@ -6,18 +6,29 @@
 
 /// A float type with the functions of this module: `f32` and `f64`.
 pub trait Real: Copy + sealed::Sealed {
-    #![allow(missing_docs)] // Each is documented once, at the free function of the same name.
+    /// What [`sin`] does.
     fn sin(self) -> Self;
+    /// What [`cos`] does.
     fn cos(self) -> Self;
+    /// What [`tan`] does.
     fn tan(self) -> Self;
+    /// What [`asin`] does.
     fn asin(self) -> Self;
+    /// What [`acos`] does.
     fn acos(self) -> Self;
+    /// What [`atan2`] does.
     fn atan2(y: Self, x: Self) -> Self;
+    /// What [`sqrt`] does.
     fn sqrt(self) -> Self;
+    /// What [`cbrt`] does.
     fn cbrt(self) -> Self;
+    /// What [`hypot`] does.
     fn hypot(x: Self, y: Self) -> Self;
+    /// What [`powf`] does.
     fn powf(self, exponent: Self) -> Self;
+    /// What [`exp`] does.
     fn exp(self) -> Self;
+    /// What [`ln`] does.
     fn ln(self) -> Self;
 }
 

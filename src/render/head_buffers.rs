@@ -1,6 +1,6 @@
 //! The head on the graphics card: once per topology; values follow the frame's revisions.
 
-use crate::frame::{Frame, Material, Revisions};
+use crate::frame::{Frame, Material, Part, Revisions};
 use glam::Vec3;
 
 /// A run of indices with one material, over all parts.
@@ -21,58 +21,71 @@ pub(super) struct HeadBuffers {
     pub(super) surface: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) runs: Vec<Run>,
-    revisions: Revisions,
+    /// Of the last frame; none before the first.
+    revisions: Option<Revisions>,
+    topology: u64,
+    skin: SkinBy,
+}
+
+/// Where the first part's positions and normals come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SkinBy {
+    /// The frame has them.
+    Upload,
+    /// The graphics card works them out from the control positions.
+    Card,
 }
 
 impl HeadBuffers {
-    /// Room for one frame's topology, values included.
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>) -> Self {
+    /// Room for one frame's topology. Values come with the first update.
+    pub(super) fn new(device: &wgpu::Device, frame: &Frame<'_>) -> Self {
         let n_vertices: usize = frame.parts.iter().map(|p| p.topology.n_vertices).sum();
-        let values = |label| buffer(device, label, n_vertices * size_of::<Vec3>(), wgpu::BufferUsages::VERTEX);
-        let (indices, runs) = joined_indices(frame);
-        let index_buffer = buffer(device, "indices", indices.len() * size_of::<u32>(), wgpu::BufferUsages::INDEX);
-        queue.write_buffer(&index_buffer, 0, bytemuck::cast_slice(&indices));
-        let buffers = Self {
-            positions: values("positions"),
-            normals: values("normals"),
+        let n_bytes = n_vertices * size_of::<Vec3>();
+        let values = |label| buffer(device, label, n_bytes, wgpu::BufferUsages::VERTEX);
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let computed = |label| buffer(device, label, n_bytes, usage);
+        let n_indices: usize = frame.parts.iter().map(|p| p.topology.indices.len()).sum();
+        Self {
+            positions: computed("positions"),
+            normals: computed("normals"),
             flow: values("flow"),
             colours: values("colours"),
             surface: values("surface"),
-            indices: index_buffer,
-            runs,
-            revisions: frame.revisions,
-        };
-        buffers.write_shape(queue, frame);
-        buffers.write_look(queue, frame);
-        buffers
+            indices: buffer(device, "indices", n_indices * size_of::<u32>(), wgpu::BufferUsages::INDEX),
+            runs: Vec::new(),
+            revisions: None,
+            topology: frame.revisions.topology,
+            skin: SkinBy::Upload,
+        }
     }
 
     /// Whether the frame has the topology that these buffers were made for.
     pub(super) fn fits(&self, frame: &Frame<'_>) -> bool {
-        self.revisions.topology == frame.revisions.topology
+        self.topology == frame.revisions.topology
     }
 
-    /// Uploads what has changed in a frame that fits.
-    pub(super) fn update(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>) {
+    /// Uploads what has changed in a frame that fits, apart from what the card works out; tells whether that is out of date.
+    pub(super) fn update(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>, skin: SkinBy) -> bool {
         let (old, new) = (self.revisions, frame.revisions);
-        if old.shape != new.shape {
-            self.write_shape(queue, frame);
+        if old.is_none() {
+            let (indices, runs) = joined_indices(frame);
+            queue.write_buffer(&self.indices, 0, bytemuck::cast_slice(&indices));
+            self.runs = runs;
         }
-        if old.look != new.look {
-            self.write_look(queue, frame);
+        let shape_changed = old.is_none_or(|old| old.shape != new.shape) || self.skin != skin;
+        if shape_changed {
+            let n_computed = usize::from(skin == SkinBy::Card);
+            write_parts(queue, &self.positions, frame, n_computed, |p| p.positions);
+            write_parts(queue, &self.normals, frame, n_computed, |p| p.normals);
+            write_parts(queue, &self.flow, frame, 0, |p| p.flow);
         }
-        self.revisions = new;
-    }
-
-    fn write_shape(&self, queue: &wgpu::Queue, frame: &Frame<'_>) {
-        write_parts(queue, &self.positions, frame.parts.iter().map(|p| p.positions));
-        write_parts(queue, &self.normals, frame.parts.iter().map(|p| p.normals));
-        write_parts(queue, &self.flow, frame.parts.iter().map(|p| p.flow));
-    }
-
-    fn write_look(&self, queue: &wgpu::Queue, frame: &Frame<'_>) {
-        write_parts(queue, &self.colours, frame.parts.iter().map(|p| p.colours));
-        write_parts(queue, &self.surface, frame.parts.iter().map(|p| p.surface));
+        if old.is_none_or(|old| old.look != new.look) {
+            write_parts(queue, &self.colours, frame, 0, |p| p.colours);
+            write_parts(queue, &self.surface, frame, 0, |p| p.surface);
+        }
+        self.revisions = Some(new);
+        self.skin = skin;
+        shape_changed
     }
 }
 
@@ -86,11 +99,20 @@ pub(super) fn buffer(device: &wgpu::Device, label: &str, bytes: usize, usage: wg
     })
 }
 
-fn write_parts<'a>(queue: &wgpu::Queue, buffer: &wgpu::Buffer, parts: impl Iterator<Item = &'a [Vec3]>) {
+/// Writes one kind of value of all parts but the first `n_skipped`.
+fn write_parts<'a>(
+    queue: &wgpu::Queue,
+    buffer: &wgpu::Buffer,
+    frame: &Frame<'a>,
+    n_skipped: usize,
+    values: impl Fn(&Part<'a>) -> &'a [Vec3],
+) {
     let mut offset = 0;
-    for values in parts {
-        let bytes: &[u8] = bytemuck::cast_slice(values);
-        queue.write_buffer(buffer, offset, bytes);
+    for (i, part) in frame.parts.iter().enumerate() {
+        let bytes: &[u8] = bytemuck::cast_slice(values(part));
+        if i >= n_skipped {
+            queue.write_buffer(buffer, offset, bytes);
+        }
         offset += bytes.len() as u64;
     }
 }

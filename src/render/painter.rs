@@ -3,10 +3,11 @@
 use super::camera::Camera;
 use super::globals::{Extent, Globals};
 use super::ground_pass::{Background, GroundPass};
-use super::head_buffers::{HeadBuffers, buffer};
+use super::head_buffers::{HeadBuffers, SkinBy, buffer};
 use super::mesh_pass::{MeshPass, Quality};
 use super::shader_source::{ShaderError, ShaderSources};
 use super::shadow_pass::{self, ShadowPass};
+use super::subdivide_pass::{PlanBuffers, SubdividePass};
 use super::targets::Targets;
 use super::wire_pass::{Lines, WirePass};
 use crate::frame::Frame;
@@ -37,6 +38,8 @@ pub struct Drawing {
     pub background: Background,
     /// The lights turned about the vertical, radians; 0 leaves the key light at the upper left of the picture.
     pub light_turn: f32,
+    /// Whether the graphics card evaluates the skin, if it can. The picture differs by rounding at most.
+    pub on_card: bool,
     /// Pixels per unit of line width: 1, or the window's scale factor.
     pub pixels_per_point: f32,
 }
@@ -49,6 +52,7 @@ impl Drawing {
             shading: Shading::Shaded,
             background: Background::default(),
             light_turn: 0.0,
+            on_card: false,
             pixels_per_point: 1.0,
         }
     }
@@ -63,6 +67,10 @@ pub struct Painter {
     globals_bindings: wgpu::BindGroup,
     quality: Quality,
     head: Option<HeadBuffers>,
+    /// None on a device without compute shaders.
+    subdivide: Option<SubdividePass>,
+    /// The skin's plan on the card, for the head at hand.
+    plan: Option<PlanBuffers>,
 }
 
 #[derive(Debug)]
@@ -119,7 +127,8 @@ impl Painter {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
         });
         let passes = Passes::new(device, queue, sources, &globals_layout, quality)?;
-        Ok(Self { passes, globals_layout, globals, globals_bindings, quality, head: None })
+        let subdivide = SubdividePass::new_if_able(device, sources)?;
+        Ok(Self { passes, globals_layout, globals, globals_bindings, quality, head: None, subdivide, plan: None })
     }
 
     /// Takes other shader texts. On an error everything stays as it was.
@@ -129,13 +138,17 @@ impl Painter {
         queue: &wgpu::Queue,
         sources: &ShaderSources,
     ) -> Result<(), ShaderError> {
-        self.passes = Passes::new(device, queue, sources, &self.globals_layout, self.quality)?;
+        let passes = Passes::new(device, queue, sources, &self.globals_layout, self.quality)?;
+        self.subdivide = SubdividePass::new_if_able(device, sources)?;
+        self.passes = passes;
+        self.plan = None;
         Ok(())
     }
 
     /// Forgets the head: to be called when frames come from another pipeline, whose revisions count anew.
     pub fn forget(&mut self) {
         self.head = None;
+        self.plan = None;
         self.passes.wire.forget();
     }
 
@@ -149,13 +162,22 @@ impl Painter {
         frame: &Frame<'_>,
         drawing: &Drawing,
     ) {
+        let plan = frame.plan.filter(|plan| drawing.on_card && SubdividePass::takes(device, plan));
+        let pass = self.subdivide.as_ref().zip(plan);
+        if !self.head.as_ref().is_some_and(|head| head.fits(frame)) {
+            self.plan = None;
+        }
         let head = match &mut self.head {
-            Some(head) if head.fits(frame) => {
-                head.update(queue, frame);
-                head
-            }
-            other => other.insert(HeadBuffers::new(device, queue, frame)),
+            Some(head) if head.fits(frame) => head,
+            other => other.insert(HeadBuffers::new(device, frame)),
         };
+        let changed = head.update(queue, frame, if pass.is_some() { SkinBy::Card } else { SkinBy::Upload });
+        if let (Some((pass, plan)), true) = (pass, changed) {
+            let positions = (&head.positions, &head.normals);
+            let buffers = self.plan.get_or_insert_with(|| pass.load(device, queue, plan, positions.0, positions.1));
+            buffers.write_control(queue, frame.control);
+            pass.record(encoder, buffers);
+        }
         let lines = match drawing.shading {
             Shading::Shaded => None,
             Shading::Wireframe => Some(Lines::Refined),

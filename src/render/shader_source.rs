@@ -6,6 +6,8 @@ use wgpu::naga;
 /// One file of `shaders/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShaderFile {
+    /// The block that all the others read.
+    Globals,
     /// The head's surfaces.
     Mesh,
     /// Lines over the head.
@@ -14,6 +16,8 @@ pub enum ShaderFile {
     Background,
     /// Depth seen from the key light.
     Shadow,
+    /// A plan evaluated on the card.
+    Subdivide,
 }
 
 /// A shader that does not compile, with the place to look at.
@@ -32,16 +36,23 @@ pub struct ShaderError {
 
 impl ShaderFile {
     /// Every file.
-    pub const ALL: [Self; 4] = [Self::Mesh, Self::Wire, Self::Background, Self::Shadow];
+    pub const ALL: [Self; 6] = [Self::Globals, Self::Mesh, Self::Wire, Self::Background, Self::Shadow, Self::Subdivide];
 
     /// File name inside `shaders/`.
     pub fn file_name(self) -> &'static str {
         match self {
+            Self::Globals => "globals.wgsl",
             Self::Mesh => "mesh.wgsl",
             Self::Wire => "wire.wgsl",
             Self::Background => "background.wgsl",
             Self::Shadow => "shadow.wgsl",
+            Self::Subdivide => "subdivide.wgsl",
         }
+    }
+
+    /// Whether the block of globals belongs to it: to all that draw.
+    pub fn reads_globals(self) -> bool {
+        !matches!(self, Self::Globals | Self::Subdivide)
     }
 }
 
@@ -55,10 +66,12 @@ impl Default for ShaderSources {
     /// Those built into the program.
     fn default() -> Self {
         let texts = [
+            include_str!("../../shaders/globals.wgsl"),
             include_str!("../../shaders/mesh.wgsl"),
             include_str!("../../shaders/wire.wgsl"),
             include_str!("../../shaders/background.wgsl"),
             include_str!("../../shaders/shadow.wgsl"),
+            include_str!("../../shaders/subdivide.wgsl"),
         ];
         Self { texts: texts.map(str::to_owned) }
     }
@@ -75,12 +88,26 @@ impl ShaderSources {
         self.texts[file as usize] = text;
     }
 
+    /// A file as it is compiled: the block of globals comes behind it, so that its own lines keep their numbers.
+    fn composed(&self, file: ShaderFile) -> String {
+        if file.reads_globals() {
+            format!("{}\n{}", self.text(file), self.text(ShaderFile::Globals))
+        } else {
+            self.text(file).to_owned()
+        }
+    }
+
     /// Parses and validates one file without a device.
     pub fn check(&self, file: ShaderFile) -> Result<(), ShaderError> {
-        let source = self.text(file);
+        if file.reads_globals() {
+            self.check(ShaderFile::Globals)?;
+        }
+        let source = &self.composed(file);
+        // Something left open at the end is noticed in the globals behind it, which are right.
+        let n_lines = self.text(file).lines().count().max(1) as u32;
         let error = |place: Option<naga::SourceLocation>, message: String| ShaderError {
             file: file.file_name(),
-            line: place.map_or(1, |p| p.line_number),
+            line: place.map_or(1, |p| p.line_number.min(n_lines)),
             column: place.map_or(1, |p| p.line_position),
             message: message.replace('\n', " "),
         };
@@ -98,7 +125,7 @@ impl ShaderSources {
         self.check(file)?;
         Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(file.file_name()),
-            source: wgpu::ShaderSource::Wgsl(self.text(file).into()),
+            source: wgpu::ShaderSource::Wgsl(self.composed(file).into()),
         }))
     }
 }

@@ -93,11 +93,19 @@ impl SubdividePass {
         Ok(Self { stencils, normals, layout })
     }
 
+    /// The same, or nothing on a device without compute shaders.
+    pub(super) fn new_if_able(device: &wgpu::Device, sources: &ShaderSources) -> Result<Option<Self>, ShaderError> {
+        let limits = device.limits();
+        let able = limits.max_compute_workgroup_size_x >= WORKGROUP && limits.max_storage_buffers_per_shader_stage >= 5;
+        able.then(|| Self::new(device, sources)).transpose()
+    }
+
     /// Whether a plan can be evaluated here: positions of the last level, normals from faces or none, at least one step,
     /// and tables that fit the device.
     pub fn takes(device: &wgpu::Device, plan: &Plan) -> bool {
         let limits = device.limits();
-        let largest = plan.tables().iter().map(|t| 4 * t.n_entries() as u64).chain([12 * plan.n_vertices() as u64]).max();
+        let largest =
+            plan.tables().iter().map(|t| 4 * t.n_entries() as u64).chain([12 * plan.n_vertices() as u64]).max();
         let ring_bytes = plan.n_ring_bytes() as u64;
         limits.max_compute_workgroup_size_x >= WORKGROUP
             && limits.max_storage_buffers_per_shader_stage >= 5
@@ -123,8 +131,7 @@ impl SubdividePass {
         let mut steps = Vec::new();
         for (i, table) in plan.tables().iter().enumerate() {
             let is_last = i + 1 == plan.tables().len();
-            let fine =
-                if is_last { positions.clone() } else { buffer(device, "level", 12 * table.n_rows(), storage) };
+            let fine = if is_last { positions.clone() } else { buffer(device, "level", 12 * table.n_rows(), storage) };
             let table = Table { rows: table.row_starts(), sources: table.sources(), weights: table.weights() };
             steps.push(self.dispatch(device, queue, table, &coarse, &fine));
             coarse = fine;
@@ -171,8 +178,8 @@ impl SubdividePass {
 
     /// Records the evaluation of the control positions that were [written](PlanBuffers::write_control) last.
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder, plan: &PlanBuffers) {
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("subdivide"), timestamp_writes: None });
+        let mut pass = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("subdivide"), timestamp_writes: None });
         pass.set_pipeline(&self.stencils);
         for step in &plan.steps {
             step.run(&mut pass);

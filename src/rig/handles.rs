@@ -8,24 +8,40 @@ pub const NONE: u16 = u16::MAX;
 
 /// Half vertices by patch; the patches are explained in `assets/head.patch.ron`.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)] // named as the patches
 pub struct Handles {
+    /// Upper skin: ring, column.
     pub s: [[u16; 10]; 20],
+    /// Lower skin: ring, column.
     pub l: [[u16; 15]; 20],
+    /// Upper lining of the mouth: row, place from the lip inwards.
     pub mu: [[u16; 4]; 11],
+    /// Lower lining of the mouth: row, place from the lip inwards.
     pub ml: [[u16; 4]; 11],
+    /// Rim of the nose pad.
     pub n: [u16; 10],
+    /// Midline of the nose pad.
     pub nm: [u16; 2],
+    /// Rim of the nostril.
     pub nr: [u16; 10],
+    /// Inside of the nostril.
     pub ni: [u16; 10],
+    /// End of the nostril.
     pub np: u16,
+    /// The hole of the grid around the eye.
     pub orbit: [u16; 12],
+    /// Fold of the lids.
     pub of: [u16; 12],
+    /// Outer margin of the lids.
     pub er: [u16; 12],
+    /// Inner margin of the lids.
     pub ei: [u16; 12],
+    /// Pole behind the eyeball.
     pub ep: u16,
+    /// The hole of the grid below the ear.
     pub ear_base: [u16; 12],
+    /// Rings of the ear from its base: ring, place around.
     pub a: [[u16; 12]; 5],
+    /// Last ring of the ear.
     pub a5: [u16; 8],
 }
 

@@ -11,9 +11,8 @@ macro_rules! measures {
     ($($field:ident = $id:literal),* $(,)?) => {
         /// The values that the shape of a head depends on, one field for each row of `rigs/anatomy.ron`, in SI units.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs)] // each field is documented by its row of the table
         pub struct Measures {
-            $(pub $field: f32,)*
+            $(#[doc = concat!("The row `", $id, "`.")] pub $field: f32,)*
         }
 
         impl Measures {
@@ -95,74 +94,131 @@ measures! {
 
 /// Measures of the ear in head units and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)] // named as the table's rows
 pub struct EarProportions {
+    /// From base to tip.
     pub length: f32,
+    /// At the widest place.
     pub width: f32,
+    /// Along the base.
     pub base: f32,
+    /// Middle of the left ear's base.
     pub set: Vec3,
+    /// Of the ear above the horizontal.
     pub lift: f32,
+    /// Towards the nape.
     pub back: f32,
+    /// Of the opening about the ear's own axis.
     pub turn: f32,
+    /// At the fold: how far the tip hangs over.
     pub fold: f32,
+    /// Where the fold lies, as a part of the length.
     pub fold_height: f32,
+    /// Part of the length over which the fold is spread.
     pub fold_softness: f32,
+    /// Of the fold's line across the ear.
     pub sweep: f32,
+    /// How far the leather is rolled to a cup.
     pub cup: f32,
+    /// Of the leather.
     pub thickness: f32,
+    /// How round the tip is.
     pub tip: f32,
+    /// Where the widest place lies, as a part of the length.
     pub widest: f32,
 }
 
 /// A head without its size. Lengths in head units, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)] // short names of the formulae; the measures above say what they are
 pub struct Proportions {
     /// Metres of one head unit.
     pub scale: f32,
+    /// From brow to nape: a constant, since everything is relative to it.
     pub cran_len: f32,
+    /// Width of the braincase with its muscles.
     pub cran_w: f32,
+    /// Height of the crown above the nasion.
     pub cran_h: f32,
+    /// How round the forehead is.
     pub dome: f32,
+    /// How far the occiput stands out.
     pub occiput: f32,
+    /// Depth of the frontal furrow.
     pub furrow: f32,
+    /// Width between the zygomatic arches, skin included.
     pub zyg_w: f32,
+    /// Height of the arches from the nasion.
     pub zyg_y: f32,
+    /// Thickness of the masseter.
     pub cheek: f32,
+    /// Depth of the bridge below the forehead.
     pub stop: f32,
+    /// How far the brow ridge stands out.
     pub brow: f32,
+    /// From the nasion to the muzzle's end.
     pub muz_len: f32,
+    /// Width of the muzzle at its root.
     pub muz_w0: f32,
+    /// Width of the muzzle at its tip.
     pub muz_w1: f32,
+    /// Depth of the upper muzzle at its root.
     pub muz_d0: f32,
+    /// Depth of the upper muzzle at its tip.
     pub muz_d1: f32,
+    /// Of the muzzle against the cranium.
     pub muz_tilt: f32,
+    /// How far the bridge is arched.
     pub roman: f32,
+    /// Width of the bridge as a part of the muzzle's.
     pub bridge_w: f32,
+    /// Size of the roll above the nose.
     pub wrinkle: f32,
+    /// Width of the nose pad.
     pub nose_w: f32,
+    /// Height of the nose pad.
     pub nose_h: f32,
+    /// How far the nose stands before the muzzle.
     pub nose_out: f32,
+    /// How far the nose is lifted above the bridge's line.
     pub nose_up: f32,
+    /// How far the flews hang.
     pub flew: f32,
+    /// Thickness of the lips.
     pub lip_t: f32,
+    /// Where the corner of the mouth lies along the muzzle.
     pub corner_z: f32,
+    /// How far the lower jaw stands before the upper.
     pub jaw_len: f32,
+    /// Width of the lower jaw as a part of the upper's.
     pub jaw_w: f32,
+    /// Depth of the lower jaw.
     pub jaw_d: f32,
+    /// How far the chin stands out.
     pub chin: f32,
+    /// How far the dewlap hangs.
     pub throat: f32,
+    /// Left eyeball from the median plane.
     pub eye_x: f32,
+    /// Height of the eyeball's middle.
     pub eye_y: f32,
+    /// The eyeball's middle along the axis of the head.
     pub eye_z: f32,
+    /// Radius of the eyeball.
     pub eye_r: f32,
+    /// Of the eye's axis to the side.
     pub eye_yaw: f32,
+    /// Of the lids' long axis.
     pub eye_cant: f32,
+    /// How far the lids are open.
     pub eye_open: f32,
+    /// Width of the opening of the lids.
     pub eye_w: f32,
+    /// Width of the neck.
     pub neck_w: f32,
+    /// Depth of the neck.
     pub neck_d: f32,
+    /// Of the neck below the horizontal.
     pub neck_ang: f32,
+    /// The left ear.
     pub ear: EarProportions,
 }
 

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::lane::{Lane, Octet, Value};
 use super::limit::LimitTable;
-use super::normals::{BLOCK, Sums};
+use super::normals::unit_vectors;
 use super::runs::pieces;
 use super::stencil::StencilTable;
 
@@ -139,44 +139,43 @@ pub(super) fn limit_surface(
 ) {
     assert_eq!(source.len(), table.n_rows, "one value for each source");
     let wants_positions = !positions.is_empty();
-    let mut sums = Sums::default();
-    for (b, normals) in normals.chunks_mut(BLOCK).enumerate() {
-        let start = b * BLOCK;
-        for piece in pieces(&table.runs, table.n_rows, first + start..first + start + normals.len()) {
-            let weights = &table.weights[piece.weights];
-            let sources = &table.sources[piece.entries];
-            if let ([w0, w1, ..], (sources, _)) = (weights, sources.as_chunks::<7>())
-                && LimitTable::is_regular(weights)
-            {
-                let (centre, neighbour) = (w0[0], w1[0]);
-                for (i, &[v, q0, q1, q2, q3, q4, q5]) in piece.out.zip(sources) {
-                    let (v, q0, q1, q2) = (fetch(source, v), fetch(source, q0), fetch(source, q1), fetch(source, q2));
-                    let (q3, q4, q5) = (fetch(source, q3), fetch(source, q4), fetch(source, q5));
-                    // Opposite neighbours come in with opposite weights, or with the same.
-                    let (a, b, c) = (q0.minus(q3), q1.minus(q4), q2.minus(q5));
-                    if wants_positions {
-                        let ring = q0.plus(q3).plus(q1.plus(q4)).plus(q2.plus(q5));
-                        positions[start + i] = v.scaled(centre).plus(ring.scaled(neighbour)).into();
-                    }
-                    let along = a.plus(b.minus(c).scaled(0.5));
-                    sums.set(i, along.cross(b.plus(c)));
+    for piece in pieces(&table.runs, table.n_rows, first..first + normals.len()) {
+        let weights = &table.weights[piece.weights];
+        let sources = &table.sources[piece.entries];
+        let normals = &mut normals[piece.out.clone()];
+        let positions = if wants_positions { &mut positions[piece.out] } else { &mut [] };
+        if let ([w0, w1, ..], (sources, _)) = (weights, sources.as_chunks::<7>())
+            && LimitTable::is_regular(weights)
+        {
+            let (centre, neighbour) = (w0[0], w1[0]);
+            unit_vectors(normals, |i| {
+                let [v, q0, q1, q2, q3, q4, q5] = sources[i];
+                let (q0, q1, q2) = (fetch(source, q0), fetch(source, q1), fetch(source, q2));
+                let (q3, q4, q5) = (fetch(source, q3), fetch(source, q4), fetch(source, q5));
+                if let Some(out) = positions.get_mut(i) {
+                    let ring = q0.plus(q3).plus(q1.plus(q4)).plus(q2.plus(q5));
+                    *out = fetch(source, v).scaled(centre).plus(ring.scaled(neighbour)).into();
                 }
-            } else {
-                for (i, sources) in piece.out.zip(sources.chunks_exact(weights.len())) {
-                    let mut totals = [Lane::default(); 3];
-                    for (&s, weights) in sources.iter().zip(weights) {
-                        let value = fetch(source, s);
-                        for k in 0..3 {
-                            totals[k] = totals[k].plus(value.scaled(weights[k]));
-                        }
-                    }
-                    if wants_positions {
-                        positions[start + i] = totals[0].into();
-                    }
-                    sums.set(i, totals[1].cross(totals[2]));
+                // Opposite neighbours come in with opposite weights.
+                let (a, b, c) = (q0.minus(q3), q1.minus(q4), q2.minus(q5));
+                a.plus(b.minus(c).scaled(0.5)).cross(b.plus(c))
+            });
+        } else {
+            let rows = sources.chunks_exact(weights.len());
+            let total = |sources: &[u32], k: usize| {
+                let mut sum = Lane::default();
+                for (&s, weights) in sources.iter().zip(weights) {
+                    sum = sum.plus(fetch(source, s).scaled(weights[k]));
                 }
+                sum
+            };
+            for (out, sources) in positions.iter_mut().zip(rows) {
+                *out = total(sources, 0).into();
             }
+            unit_vectors(normals, |i| {
+                let sources = &sources[i * weights.len()..(i + 1) * weights.len()];
+                total(sources, 1).cross(total(sources, 2))
+            });
         }
-        sums.unit_vectors(normals);
     }
 }

@@ -2,7 +2,9 @@
 //!
 //! A mask is a left eigenvector of the scheme's step on the one-ring: of eigenvalue 1 for the position, of the next two
 //! for the tangents (Halstead, Kass and DeRose 1993). The rule is that of the vertex at this level: one that is still
-//! semi-sharp is taken as sharp for ever, and a dart as smooth, which neither is quite.
+//! semi-sharp is taken as sharp for ever, and a dart as smooth, which neither is quite; nor is, with √3, the neighbour of
+//! a dart on its crease. A corner has the plane of one triangle at it, which is that of the limit where its side has no
+//! more than this one; of more triangles the limit there is no plane in general. `tests/limits.rs` has the rest.
 
 use crate::math::ops;
 use crate::mesh::VertexId;

@@ -11,7 +11,7 @@ use glam::Vec3;
 use crate::math::ops;
 use crate::mesh::{DedgeId, DedgeMesh};
 
-use super::level::Level;
+use super::level::{Level, Sharpness};
 use super::plan::{PlanError, check};
 use super::prepare::{self, Prepared};
 use super::refined::{Refined, VertexParent};
@@ -238,7 +238,7 @@ impl Geomorph {
             return Err(GeomorphError::Levels { coarse, fine });
         }
         let stride = if scheme.split() == Split::Thirds { 2 } else { 1 };
-        if coarse % stride != 0 || fine % stride != 0 {
+        if !coarse.is_multiple_of(stride) || !fine.is_multiple_of(stride) {
             return Err(GeomorphError::OddLevel { scheme, coarse, fine });
         }
         check(options, tags)?;
@@ -368,6 +368,6 @@ fn flat_ninths(level: &Level, options: &PlanOptions) -> (StencilTable, Level) {
     (builder.finish(), next_level(&between, cut, sharpness, 3))
 }
 
-fn next_level(level: &Level, child: Refined, sharpness: super::level::Sharpness, growth: u32) -> Level {
+fn next_level(level: &Level, child: Refined, sharpness: Sharpness, growth: u32) -> Level {
     Level { mesh: child.mesh, sharpness, n_active: growth * level.n_active, fixed: level.fixed.clone() }
 }

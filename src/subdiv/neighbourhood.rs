@@ -116,7 +116,7 @@ impl Neighbourhood {
         // An edge that is smooth from the next step on has no curve to be part of then.
         let stays = (0..self.ring.len()).any(|i| self.ring[i] == from && self.is_sharp(i, When::Next));
         let next = if stays { other(rules.next, When::Next) } else { now };
-        [(now, rules.weight_now), (next, 1.0 - rules.weight_now)]
+        if now == next { [(now, 1.0), (next, 0.0)] } else { [(now, rules.weight_now), (next, 1.0 - rules.weight_now)] }
     }
 
     /// Writes the row: the vertex, then its ring counter-clockwise, without those of no weight.

@@ -7,8 +7,10 @@
 //!
 //! Gathering, and not scattering, gives each sum one order whatever the number of threads.
 
+use std::ops::Range;
+
 use glam::Vec3;
-use wide::f32x8;
+use wide::{f32x4, f32x8};
 
 use crate::math::ops;
 use crate::mesh::VertexId;
@@ -26,7 +28,7 @@ const TINY: f32 = 1e-30;
 const HUGE: f32 = 1e30;
 
 /// Vertices whose sums are made unit vectors together.
-pub(super) const BLOCK: usize = 64;
+const BLOCK: usize = 64;
 
 /// The outline of the faces around each vertex, in compressed form: the one-ring inside the surface; on the boundary the
 /// vertex itself and then its ring.
@@ -98,21 +100,30 @@ impl Rings {
 
 #[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
 fn normals(rings: &Rings, first: usize, positions: &[Lane], out: &mut [Vec3]) {
-    let mut sums = Sums::default();
-    for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-        rings.vector_areas(first + block * BLOCK, out.len(), positions, |i, area| sums.set(i, area));
-        sums.unit_vectors(out);
-    }
+    assert_eq!(positions.len(), rings.n_vertices, "one position for each vertex");
+    rings.for_runs(first, out.len(), |at, len, outlines| {
+        let out = &mut out[at];
+        if let (6, (outlines, _)) = (len, outlines.as_chunks::<6>()) {
+            unit_vectors(out, |i| vector_area(&outlines[i], positions));
+        } else {
+            unit_vectors(out, |i| vector_area(&outlines[i * len..(i + 1) * len], positions));
+        }
+    });
 }
 
 /// Unit normals of eight heads, of the vertices from `first` on, into as many places from `first` on of each of `heads`.
 #[multiversion::multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2", "x86_64+avx"))]
 pub(super) fn octet_normals(rings: &Rings, positions: &[Octet], heads: &mut [&mut [Vec3]]) {
+    assert_eq!(positions.len(), rings.n_vertices, "one position for each vertex");
     let mut areas = [Octet::default(); BLOCK];
     let mut first = 0;
     while first < rings.n_vertices {
         let n = BLOCK.min(rings.n_vertices - first);
-        rings.vector_areas(first, n, positions, |i, area| areas[i] = area);
+        rings.for_runs(first, n, |at, len, outlines| {
+            for (area, outline) in areas[at].iter_mut().zip(outlines.chunks_exact(len)) {
+                *area = vector_area(outline, positions);
+            }
+        });
         for (i, &area) in areas[..n].iter().enumerate() {
             let squared = area.squared();
             let inverse = f32x8::splat(1.0) / squared.sqrt();
@@ -138,10 +149,10 @@ fn settle_octet(area: Octet, vertex: usize, heads: &mut [&mut [Vec3]]) {
 }
 
 impl Rings {
-    /// Twice the vector area around each of `n` vertices from `first` on, handed over with its index from 0.
+    /// The outlines of `n` vertices from `first` on, run by run: places counted from `first`, the length of each outline,
+    /// and all of them.
     #[inline(always)]
-    fn vector_areas<V: Value>(&self, first: usize, n: usize, positions: &[V], mut put: impl FnMut(usize, V)) {
-        assert_eq!(positions.len(), self.n_vertices, "one position for each vertex");
+    fn for_runs(&self, first: usize, n: usize, mut work: impl FnMut(Range<usize>, usize, &[u32])) {
         let mut run = self.runs.partition_point(|run| run.first_vertex as usize <= first).saturating_sub(1);
         let (mut vertex, end) = (first, (first + n).min(self.n_vertices));
         while vertex < end {
@@ -149,16 +160,7 @@ impl Rings {
             let run_end = self.runs.get(run + 1).map_or(self.n_vertices, |next| next.first_vertex as usize);
             let (stop, len) = (run_end.min(end), len as usize);
             let entry = first_entry as usize + (vertex - first_vertex as usize) * len;
-            let outlines = &self.neighbours[entry..entry + (stop - vertex) * len];
-            if let (6, (outlines, _)) = (len, outlines.as_chunks::<6>()) {
-                for (i, outline) in (vertex - first..stop - first).zip(outlines) {
-                    put(i, vector_area(outline, positions));
-                }
-            } else {
-                for (i, outline) in (vertex - first..stop - first).zip(outlines.chunks_exact(len)) {
-                    put(i, vector_area(outline, positions));
-                }
-            }
+            work(vertex - first..stop - first, len, &self.neighbours[entry..entry + (stop - vertex) * len]);
             vertex = stop;
             run += 1;
         }
@@ -185,54 +187,48 @@ fn vector_area<V: Value>(outline: &[u32], positions: &[V]) -> V {
     sum
 }
 
-/// Vectors that are to become unit vectors, coordinate by coordinate: eight square roots cost as much as one.
-pub(super) struct Sums {
-    x: [f32; BLOCK],
-    y: [f32; BLOCK],
-    z: [f32; BLOCK],
-}
-
-impl Default for Sums {
-    fn default() -> Self {
-        Sums { x: [1.0; BLOCK], y: [0.0; BLOCK], z: [0.0; BLOCK] }
+/// Fills `out` with unit vectors along `sum(i)`, lanes that hold z, x, y: four at a time, since four square roots cost as
+/// much as one.
+#[inline(always)]
+pub(super) fn unit_vectors(out: &mut [Vec3], mut sum: impl FnMut(usize) -> Lane) {
+    let (fours, rest) = out.as_chunks_mut::<4>();
+    let n_fours = 4 * fours.len();
+    for (k, out) in fours.iter_mut().enumerate() {
+        let sums = [sum(4 * k), sum(4 * k + 1), sum(4 * k + 2), sum(4 * k + 3)];
+        let [z, x, y, _] = f32x4::transpose([sums[0].0, sums[1].0, sums[2].0, sums[3].0]);
+        let squared = x * x + y * y + z * z;
+        let inverse = f32x4::splat(1.0) / squared.sqrt();
+        let lanes = f32x4::transpose([x * inverse, y * inverse, z * inverse, f32x4::splat(0.0)]);
+        for i in 0..4 {
+            out[i] = Lane(lanes[i]).into();
+        }
+        let squared = squared.to_array();
+        let fine = |s: f32| s > TINY && s < HUGE;
+        if !(fine(squared[0]) & fine(squared[1]) & fine(squared[2]) & fine(squared[3])) {
+            settle_extremes(&sums, out);
+        }
+    }
+    for (i, out) in rest.iter_mut().enumerate() {
+        let [z, x, y, _] = sum(n_fours + i).0.to_array();
+        let squared = x * x + y * y + z * z;
+        let inverse = 1.0 / ops::sqrt(squared);
+        *out = if squared > TINY && squared < HUGE {
+            Vec3::new(x * inverse, y * inverse, z * inverse)
+        } else {
+            unit_of_extreme(Vec3::new(x, y, z))
+        };
     }
 }
 
-impl Sums {
-    /// Sets one of at most [`BLOCK`] from a lane that holds z, x, y.
-    #[inline(always)]
-    pub(super) fn set(&mut self, i: usize, sum: Lane) {
+/// Those whose squared length underflows or overflows, or that have none.
+#[cold]
+#[inline(never)]
+fn settle_extremes(sums: &[Lane; 4], out: &mut [Vec3; 4]) {
+    for (sum, out) in sums.iter().zip(out) {
         let [z, x, y, _] = sum.0.to_array();
-        (self.x[i], self.y[i], self.z[i]) = (x, y, z);
-    }
-
-    /// Writes the first `out.len()` of them, at most [`BLOCK`], as unit vectors.
-    #[inline(always)]
-    pub(super) fn unit_vectors(&self, out: &mut [Vec3]) {
-        let mut inverse = [0.0_f32; BLOCK];
-        let mut extreme = false;
-        for i in 0..BLOCK {
-            let (x, y, z) = (self.x[i], self.y[i], self.z[i]);
-            let squared = x * x + y * y + z * z;
-            extreme |= !(squared > TINY && squared < HUGE);
-            inverse[i] = 1.0 / ops::sqrt(squared);
-        }
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = Vec3::new(self.x[i] * inverse[i], self.y[i] * inverse[i], self.z[i] * inverse[i]);
-        }
-        if extreme {
-            self.settle_extremes(out);
-        }
-    }
-
-    /// Those whose squared length underflows or overflows, or that have none.
-    #[cold]
-    fn settle_extremes(&self, out: &mut [Vec3]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            let sum = Vec3::new(self.x[i], self.y[i], self.z[i]);
-            if is_extreme(sum) {
-                *out = unit_of_extreme(sum);
-            }
+        let sum = Vec3::new(x, y, z);
+        if is_extreme(sum) {
+            *out = unit_of_extreme(sum);
         }
     }
 }
@@ -256,15 +252,18 @@ fn unit_of_extreme(sum: Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{FALLBACK, Lane, Sums};
+    use super::{FALLBACK, Lane, unit_vectors};
     use glam::Vec3;
 
     fn unit(sum: Vec3) -> Vec3 {
-        let mut out = [Vec3::ZERO];
-        let mut sums = Sums::default();
-        sums.set(0, Lane::from(Vec3::new(sum.z, sum.x, sum.y)));
-        sums.unit_vectors(&mut out);
-        out[0]
+        // One of four, and one alone.
+        let mut out = [Vec3::ZERO; 5];
+        unit_vectors(&mut out, |i| {
+            let sum = if i == 1 || i == 4 { sum } else { Vec3::X };
+            Lane::from(Vec3::new(sum.z, sum.x, sum.y))
+        });
+        assert_eq!((out[0], out[1]), (Vec3::X, out[4]));
+        out[1]
     }
 
     #[test]

@@ -89,6 +89,7 @@ impl StandIn {
             parts: parts.collect(),
             control: &self.control,
             control_indices: &self.control_indices,
+            plan: None,
             revisions: self.revisions,
         }
     }

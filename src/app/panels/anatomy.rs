@@ -32,7 +32,7 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             let header = header.open(is_narrowed.then_some(true));
             header.show(ui, |ui| {
                 for index in rows {
-                    row(state, ui, index);
+                    row_in_sight(state, ui, index);
                 }
             });
         }
@@ -53,9 +53,27 @@ fn groups(state: &EditorState, found: &[usize]) -> Vec<(String, Vec<usize>)> {
     groups
 }
 
+/// So far beyond the edge rows are still there, for the Tab key to reach, points.
+const BEYOND_SIGHT: f32 = 100.0;
 /// For the number and the reset arrow, points.
 const NUMBER_WIDTH: f32 = 72.0;
 const RESET_WIDTH: f32 = 22.0;
+
+/// A row, or the room that it took last time while it is scrolled out of sight: most of sixty rows are.
+fn row_in_sight(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
+    let id = ui.scope_id().with(&state.table.specs[index].id);
+    let top = ui.cursor().min;
+    let known: Option<f32> = ui.data(|d| d.get_temp(id));
+    if let Some(height) = known {
+        let sight = ui.clip_rect().y_range().expand(BEYOND_SIGHT);
+        if top.y > sight.max || top.y + height < sight.min {
+            ui.advance_cursor_after_rect(egui::Rect::from_min_size(top, egui::vec2(1.0, height)));
+            return;
+        }
+    }
+    let shown = ui.push_id(id, |ui| row(state, ui, index));
+    ui.data_mut(|d| d.insert_temp(id, shown.response.rect.height()));
+}
 
 /// Label above; slider, number and reset below.
 fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {

@@ -53,6 +53,7 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
     });
     keys::ui(state, ui.ctx());
     quit_question(state, ui.ctx());
+    drop_hint(ui.ctx());
     if !ui.input(|i| i.pointer.any_down()) {
         state.end_gesture();
     }
@@ -64,14 +65,14 @@ fn quit_question(state: &mut EditorState, ctx: &egui::Context) {
     if !state.asks_to_quit {
         return;
     }
-    egui::Modal::new(egui::Id::unique("quit")).show(ctx, |ui| {
+    let asked = egui::Modal::new(egui::Id::unique("quit")).show(ctx, |ui| {
         ui.heading("Unsaved changes");
         ui.label(format!("{} has changes that are in no file.", state.breed().label));
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            if ui.button("Save").clicked() {
+            if ui.button("Save and leave").clicked() {
                 state.asks_to_quit = false;
-                state.commands.push_back(Command::Save);
+                state.commands.push_back(Command::SaveAndQuit);
             }
             if ui.button("Leave without saving").clicked() {
                 state.asks_to_quit = false;
@@ -82,4 +83,16 @@ fn quit_question(state: &mut EditorState, ctx: &egui::Context) {
             }
         });
     });
+    // Escape, or a click beside the question.
+    if asked.should_close() {
+        state.asks_to_quit = false;
+    }
+}
+
+/// While a file is held over the window: what letting go would do.
+fn drop_hint(ctx: &egui::Context) {
+    if ctx.input(|i| i.raw.hovered_files.is_empty()) {
+        return;
+    }
+    egui::Modal::new(egui::Id::unique("drop")).show(ctx, |ui| ui.heading("Let go to open the breed file"));
 }

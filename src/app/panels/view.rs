@@ -37,6 +37,8 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         if ui.checkbox(&mut parallel, "parallel").on_hover_text("Without perspective").changed() {
             state.camera.lens = if parallel { Lens::Orthographic } else { Lens::default() };
         }
+        let card = ui.checkbox(&mut state.on_card, "GPU");
+        card.on_hover_text("Refine on the graphics card what is drawn; numbers and files stay the processor's");
         if ui.selectable_label(state.shows_keys, "?").on_hover_text("Keys").clicked() {
             state.shows_keys = !state.shows_keys;
         }

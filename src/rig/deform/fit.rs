@@ -15,6 +15,15 @@ use std::sync::Arc;
 /// far as the surface lets it, and the rounds converge geometrically.
 const KEEP: f32 = 0.68;
 
+/// Rounds after which vertices leap to where their last two steps lead. Where the start lies deep below a ridge (the edge
+/// of a flew, the angle of a jaw) the projection nearly makes up for what [`KEEP`] takes, and a vertex creeps along the
+/// ridge by steps of which each is hardly shorter than the one before: their sum is known long before they are done.
+const LEAPS: [usize; 3] = [3, 5, 7];
+/// The largest ratio of two steps that is believed.
+const LEAP_RATIO: f32 = 0.9;
+/// Longest leap, head units.
+const LEAP: f32 = 1.5;
+
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
 #[derive(Clone, Debug)]
 struct Spread {
@@ -142,6 +151,23 @@ pub struct FitPlan {
     rings: Arc<HalfRings>,
 }
 
+/// Buffers of the rounds; made once.
+#[derive(Clone, Debug, Default)]
+pub struct Buffers {
+    /// Where the rounds begin, and what they draw back to.
+    pub start: Vec<Vec3>,
+    /// Displacement from there.
+    pub moved: Vec<Vec3>,
+    before: Vec<Vec3>,
+    step: Vec<Vec3>,
+}
+
+/// What is left of a geometric row of steps after these two (Aitken 1926).
+fn leap(before: Vec3, now: Vec3) -> Vec3 {
+    let ratio = (now.dot(before) / before.length_squared().max(1e-12)).clamp(0.0, LEAP_RATIO);
+    (now * (ratio / (1.0 - ratio))).clamp_length_max(LEAP)
+}
+
 /// Vertices in the hollow between bridge, brow and cheek, where the nearest point of the surface jumps from one side to
 /// the other: there the smooth start stands.
 pub fn hollow(handles: &Handles) -> Vec<u16> {
@@ -213,18 +239,18 @@ impl FitPlan {
         }
     }
 
-    /// Rounds of smoothing the displacement from `start` and projecting to the surface.
-    pub fn relax(
-        &self,
-        surface: &Implicit,
-        start: &[Vec3],
-        at: &mut [Vec3],
-        moved: &mut [Vec3],
-        eye_r: f32,
-        rounds: usize,
-    ) {
-        for _ in 0..rounds {
-            for (m, (a, s)) in moved.iter_mut().zip(at.iter().zip(start)) {
+    /// Rounds of smoothing the displacement from where `at` is and projecting to the surface.
+    pub fn relax(&self, surface: &Implicit, at: &mut [Vec3], buffers: &mut Buffers, eye_r: f32, rounds: usize) {
+        let Buffers { start, moved, before, step } = buffers;
+        for list in [&mut *start, &mut *before] {
+            list.clear();
+            list.extend_from_slice(at);
+        }
+        moved.resize(at.len(), Vec3::ZERO);
+        step.clear();
+        step.resize(at.len(), Vec3::ZERO);
+        for round in 0..rounds {
+            for (m, (a, s)) in moved.iter_mut().zip(at.iter().zip(&*start)) {
                 *m = *a - *s;
             }
             for &v in &self.free {
@@ -233,6 +259,14 @@ impl FitPlan {
             }
             self.keep_orbit(at, eye_r);
             self.project(surface, at);
+            for &v in &self.free {
+                let v = v as usize;
+                let now = at[v] - before[v];
+                if LEAPS.contains(&round) {
+                    at[v] += leap(step[v], now);
+                }
+                (step[v], before[v]) = (now, at[v]);
+            }
         }
         self.project(surface, at);
     }

@@ -152,8 +152,7 @@ pub struct DeformPlan {
 /// Buffers of one deformation; made once.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    start: Vec<Vec3>,
-    moved: Vec<Vec3>,
+    rounds: fit::Buffers,
     held: Vec<f32>,
     rays: Vec<Ray>,
 }
@@ -198,10 +197,7 @@ impl DeformPlan {
             out[v as usize] += out[b as usize] - self.anchors[b as usize];
         }
         self.fit.start(&self.base, &self.anchors, out, &mut scratch.held);
-        scratch.start.clear();
-        scratch.start.extend_from_slice(out);
-        scratch.moved.resize(out.len(), Vec3::ZERO);
-        self.fit.relax(&surface, &scratch.start, out, &mut scratch.moved, shape.eye_r, rounds);
+        self.fit.relax(&surface, out, &mut scratch.rounds, shape.eye_r, rounds);
         self.finish(shape, &surface, scratch, out);
     }
 
@@ -223,9 +219,10 @@ impl DeformPlan {
     /// Ear leather and limit compensation over a fitted skin.
     pub fn finish(&self, shape: &Proportions, surface: &Implicit, scratch: &mut Scratch, at: &mut [Vec3]) {
         ear::leather(shape, surface, &self.handles, at);
-        scratch.start.resize(at.len(), Vec3::ZERO);
-        scratch.moved.resize(at.len(), Vec3::ZERO);
-        self.limit.compensate(&self.rings, at, &mut scratch.start, &mut scratch.moved);
+        let fit::Buffers { start, moved, .. } = &mut scratch.rounds;
+        start.resize(at.len(), Vec3::ZERO);
+        moved.resize(at.len(), Vec3::ZERO);
+        self.limit.compensate(&self.rings, at, start, moved);
         for (p, mid) in at.iter_mut().zip(&self.midline) {
             if *mid {
                 p.x = 0.0;

@@ -252,6 +252,9 @@ pub(super) fn code_around(
     here.code
 }
 
+/// From a directed edge to the next one around its origin: the edge that is crossed, and where that leads.
+type Step = fn(&DedgeMesh, DedgeId) -> (DedgeId, Option<DedgeId>);
+
 fn walk(mesh: &DedgeMesh, valences: &[u32], face: FaceId, by: Match, into: &mut Walk) {
     into.code.clear();
     into.visits.clear();
@@ -259,7 +262,7 @@ fn walk(mesh: &DedgeMesh, valences: &[u32], face: FaceId, by: Match, into: &mut 
         let start = face.dedge(corner as u32);
         into.code.push(valences[mesh.origin(start).index()]);
         // Counter-clockwise over the side before, or clockwise over the side itself; at a boundary, then the other way.
-        let steps: [fn(&DedgeMesh, DedgeId) -> (DedgeId, Option<DedgeId>); 2] = [
+        let steps: [Step; 2] = [
             |mesh, dedge| (dedge.prev(), mesh.twin(dedge.prev())),
             |mesh, dedge| (dedge, mesh.twin(dedge).map(DedgeId::next)),
         ];

@@ -28,6 +28,16 @@ impl PatchClass {
     }
 }
 
+/// A patch elsewhere: each triangle with how it lies on that at the same place in the first one.
+type Patch = Vec<(FaceId, Match)>;
+
+/// Two similar patches, and how the first was reached.
+struct Pair {
+    tree: Vec<Reached>,
+    first: Patch,
+    second: Patch,
+}
+
 /// Where a triangle of a patch was reached from: the place of the triangle before it, and the side that was crossed.
 #[derive(Clone, Copy)]
 struct Reached {
@@ -58,17 +68,17 @@ pub fn patches(shapes: &Shapes<'_>, classes: &Classes, criteria: &Criteria) -> V
         group.retain(|f| !grower.taken[f.index()]);
         let others: Vec<FaceId> = group.iter().copied().filter(|&f| f != seed).collect();
         let stride = others.len().div_ceil(MAX_PARTNERS).max(1);
-        let mut best: Option<(Vec<Reached>, [Vec<(FaceId, Match)>; 2])> = None;
+        let mut best: Option<Pair> = None;
         for &other in others.iter().rev().step_by(stride) {
             for by in Match::all(criteria.mirrored) {
                 if let Some(pair) = grower.grow(seed, other, by)
-                    && best.as_ref().is_none_or(|(_, [first, _])| pair.1[0].len() > first.len())
+                    && best.as_ref().is_none_or(|best| pair.first.len() > best.first.len())
                 {
                     best = Some(pair);
                 }
             }
         }
-        let Some((tree, [first, second])) = best else {
+        let Some(Pair { tree, first, second }) = best else {
             grower.taken[seed.index()] = true;
             found.push(PatchClass { patches: vec![vec![(seed, Match::default())]] });
             continue;
@@ -118,19 +128,18 @@ impl Grower<'_> {
     }
 
     /// Two patches as large as they get, from two triangles.
-    #[allow(clippy::type_complexity)]
-    fn grow(&mut self, seed: FaceId, other: FaceId, by: Match) -> Option<(Vec<Reached>, [Vec<(FaceId, Match)>; 2])> {
+    fn grow(&mut self, seed: FaceId, other: FaceId, by: Match) -> Option<Pair> {
         if !self.shapes.are_strictly_similar(seed, other, by, self.criteria) {
             return None;
         }
         self.mark += 1;
         let mut tree = vec![Reached { from: 0, side: 0 }];
-        let mut pair = [vec![(seed, Match::default())], vec![(other, by)]];
+        let (mut first, mut second) = (vec![(seed, Match::default())], vec![(other, by)]);
         [seed, other].into_iter().for_each(|f| self.mine[f.index()] = self.mark);
         let mut from = 0;
         while from < tree.len() {
             for side in 0..3 {
-                let Some((next, (next_other, next_by))) = self.across(pair[0][from].0, side, pair[1][from]) else {
+                let Some((next, (next_other, next_by))) = self.across(first[from].0, side, second[from]) else {
                     continue;
                 };
                 if next == next_other
@@ -142,22 +151,16 @@ impl Grower<'_> {
                 }
                 [next, next_other].into_iter().for_each(|f| self.mine[f.index()] = self.mark);
                 tree.push(Reached { from, side });
-                pair[0].push((next, Match::default()));
-                pair[1].push((next_other, next_by));
+                first.push((next, Match::default()));
+                second.push((next_other, next_by));
             }
             from += 1;
         }
-        Some((tree, pair))
+        Some(Pair { tree, first, second })
     }
 
     /// The same patch elsewhere, if it fits there.
-    fn fit(
-        &mut self,
-        patch: &[(FaceId, Match)],
-        tree: &[Reached],
-        other: FaceId,
-        by: Match,
-    ) -> Option<Vec<(FaceId, Match)>> {
+    fn fit(&mut self, patch: &[(FaceId, Match)], tree: &[Reached], other: FaceId, by: Match) -> Option<Patch> {
         self.mark += 1;
         if !self.is_free(other) || !self.shapes.are_strictly_similar(patch[0].0, other, by, self.criteria) {
             return None;

@@ -1,0 +1,156 @@
+//! One picture of the window, up to where the driver takes over: panels, head, uploads, recorded passes.
+//!
+//! The window runs it, and so does the measurement of it, so that what is measured is what runs.
+
+use super::panels;
+use super::scene::Scene;
+use super::state::EditorState;
+use crate::frame::{Frame, Pipeline, PipelineError};
+use crate::render::{Drawing, Gpu, ShaderError, ShaderSources};
+use crate::rig::{Rig, RigError};
+use std::sync::Arc;
+use std::time::Instant;
+use thiserror::Error;
+
+/// Why there is nothing to show.
+#[derive(Debug, Error)]
+pub(super) enum TurnError {
+    /// A shader.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    /// The head, under this table.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    /// The head, at this level.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+}
+
+/// What a window shows and what draws it; as long as the device.
+pub(super) struct Turn {
+    pub(super) gpu: Gpu,
+    pub(super) context: egui::Context,
+    pub(super) state: EditorState,
+    pub(super) pipeline: Pipeline,
+    pub(super) scene: Scene,
+    renderer: egui_wgpu::Renderer,
+    /// Of the picture, pixels.
+    pub(super) picture_size: [u32; 2],
+    /// The revision of the head's shape that was drawn last.
+    shape: u64,
+}
+
+/// Everything of one picture that the driver is still to do.
+pub(super) struct Recorded {
+    encoder: wgpu::CommandEncoder,
+    buffers: Vec<wgpu::CommandBuffer>,
+    jobs: Vec<egui::ClippedPrimitive>,
+    screen: egui_wgpu::ScreenDescriptor,
+    free: Vec<egui::TextureId>,
+    /// The head, where it has moved: from values to vertices, milliseconds.
+    pub(super) head_ms: Option<f32>,
+}
+
+impl Turn {
+    /// `format`: of what the panels are painted on.
+    pub(super) fn new(
+        gpu: Gpu,
+        format: wgpu::TextureFormat,
+        sources: &ShaderSources,
+        state: EditorState,
+    ) -> Result<Self, TurnError> {
+        let context = egui::Context::default();
+        panels::set_fonts(&context);
+        let mut renderer = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
+        let scene = Scene::new(&gpu, &mut renderer, sources)?;
+        let rig = Arc::new(Rig::embedded(&state.table)?);
+        let pipeline = Pipeline::new(rig, state.level())?;
+        Ok(Self { gpu, context, state, pipeline, scene, renderer, picture_size: [16, 16], shape: 0 })
+    }
+
+    /// The panels change the state.
+    pub(super) fn panels(&mut self, input: egui::RawInput) -> egui::FullOutput {
+        let mut area = egui::Rect::ZERO;
+        let (state, texture) = (&mut self.state, self.scene.texture());
+        let output = self.context.run_ui(input, |ui| area = panels::show(state, ui, Some(texture)));
+        let largest = self.gpu.device.limits().max_texture_dimension_2d as f32;
+        let pixels = |points: f32| (points * output.pixels_per_point).round().clamp(1.0, largest) as u32;
+        self.picture_size = [area.width(), area.height()].map(pixels);
+        output
+    }
+
+    /// The head follows the state, goes to the graphics card, and everything is recorded. `size`: of the window, pixels.
+    pub(super) fn record(&mut self, output: &mut egui::FullOutput, size: [u32; 2]) -> Recorded {
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        let scale = output.pixels_per_point;
+        let start = Instant::now();
+        if let Err(e) = self.pipeline.set_level(self.state.level()) {
+            self.state.complain(e.to_string());
+        }
+        let frame = self.pipeline.update(self.state.breed());
+        // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
+        let has_moved = frame.revisions.shape != self.shape;
+        self.shape = frame.revisions.shape;
+        let head_ms = has_moved.then(|| milliseconds(start));
+        follow(&mut self.state, &frame, self.picture_size);
+
+        let mut encoder = device.create_command_encoder(&Default::default());
+        // A processor that draws keeps up with the hand at half the size; the full picture follows.
+        let is_rough = self.gpu.is_software() && self.context.input(|i| i.pointer.any_down());
+        let picture = self.picture_size.map(|s| if is_rough { s.div_ceil(2) } else { s });
+        let drawing = drawing(&self.state, scale);
+        self.scene.draw(&self.gpu, &mut self.renderer, &mut encoder, &frame, &drawing, picture);
+
+        let jobs = self.context.tessellate(std::mem::take(&mut output.shapes), scale);
+        for (id, deltas) in output.textures_delta.set.drain() {
+            deltas.iter().for_each(|delta| self.renderer.update_texture(device, queue, id, delta));
+        }
+        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale };
+        let buffers = self.renderer.update_buffers(device, queue, &mut encoder, &jobs, &screen);
+        let free = output.textures_delta.free.drain().collect();
+        Recorded { encoder, buffers, jobs, screen, free, head_ms }
+    }
+
+    /// Paints the panels over everything and hands it to the driver; without a target the uploads only.
+    pub(super) fn submit(&mut self, recorded: Recorded, target: Option<&wgpu::TextureView>) {
+        let Recorded { mut encoder, mut buffers, jobs, screen, free, .. } = recorded;
+        if let Some(view) = target {
+            let attachment = wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            };
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("panels"),
+                color_attachments: &[Some(attachment)],
+                ..Default::default()
+            });
+            self.renderer.render(&mut pass.forget_lifetime(), &jobs, &screen);
+        }
+        buffers.push(encoder.finish());
+        self.gpu.queue.submit(buffers);
+        free.iter().for_each(|id| self.renderer.free_texture(id));
+    }
+}
+
+fn follow(state: &mut EditorState, frame: &Frame<'_>, [width, height]: [u32; 2]) {
+    let points = frame.parts.iter().flat_map(|p| p.positions);
+    state.fit_camera(points, width as f32 / height as f32);
+    state.n_triangles = frame.n_triangles();
+}
+
+pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
+    Drawing {
+        camera: state.camera,
+        shading: state.shading,
+        background: state.background,
+        light_turn: state.light_turn,
+        on_card: state.on_card,
+        pixels_per_point,
+    }
+}
+
+pub(super) fn milliseconds(since: Instant) -> f32 {
+    since.elapsed().as_secs_f32() * 1000.0
+}
