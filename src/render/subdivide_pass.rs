@@ -109,7 +109,7 @@ impl SubdividePass {
         let ring_bytes = plan.n_ring_bytes() as u64;
         limits.max_compute_workgroup_size_x >= WORKGROUP
             && limits.max_storage_buffers_per_shader_stage >= 5
-            && largest.unwrap_or(0).max(ring_bytes) <= u64::from(limits.max_storage_buffer_binding_size)
+            && largest.unwrap_or(0).max(ring_bytes) <= limits.max_storage_buffer_binding_size
             && plan.options().positions == Positions::Level
             && plan.options().normals != Normals::Limit
             && !plan.tables().is_empty()
