@@ -1,6 +1,6 @@
 //! Connectivity of polygon meshes as directed edges; no positions inside.
 //!
-//! The same idea as [`DedgeMesh`](super::DedgeMesh) with faces of any size: the sides of a face are successive numbers,
+//! The same idea as [`DedgeMesh`] with faces of any size: the sides of a face are successive numbers,
 //! so that next and previous need only where the face begins. Catmull-Clark and Doo-Sabin refine these, and the
 //! three-connected dual is one.
 
