@@ -90,6 +90,11 @@ pub(super) fn refine(mesh: &PolygonMesh) -> RefinedPolygons {
         twin,
         outgoing,
     };
+    if cfg!(debug_assertions) && n_faces < 3000 {
+        // While testing: that the arithmetic has made a mesh, and the one that its faces make.
+        let anew = PolygonMesh::from_faces(mesh.n_vertices(), &vec![4; n_faces as usize], &mesh.origin);
+        debug_assert!(anew.is_ok_and(|anew| anew.twin == mesh.twin), "the child of a step is no mesh");
+    }
     RefinedPolygons { mesh, edges }
 }
 

@@ -62,7 +62,9 @@ pub(super) fn refine(mesh: &DedgeMesh) -> Refined {
             _ => unreachable!("a quarter has its corners on vertices and edges"),
         })
         .collect();
-    Refined { mesh: DedgeMesh { origin, twin, outgoing }, parents }
+    let child = Refined { mesh: DedgeMesh { origin, twin, outgoing }, parents };
+    child.debug_assert_sound();
+    child
 }
 
 /// From the origin of a side to its middle, in the child; none for none.

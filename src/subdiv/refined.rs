@@ -27,3 +27,15 @@ pub(super) struct Refined {
     /// face that has it.
     pub(super) parents: Vec<VertexParent>,
 }
+
+impl Refined {
+    /// While testing: that the arithmetic has made a mesh, before anything walks around a vertex of it and never comes back.
+    pub(super) fn debug_assert_sound(&self) {
+        if cfg!(debug_assertions)
+            && self.mesh.n_faces() < 3000
+            && let Err(error) = self.mesh.validate()
+        {
+            panic!("the child of a step is no mesh: {error}");
+        }
+    }
+}

@@ -48,7 +48,9 @@ const NONE: u32 = u32::MAX;
 /// The caller sees to the size (three times the faces must fit 32 bits) and to the alternation of steps: a trisecting
 /// one is taken only after a keeping one, so that no face has two sides to cut.
 pub(super) fn refine(level: &Level, step: BoundaryStep) -> Refined {
-    Step::new(level, step).run()
+    let child = Step::new(level, step).run();
+    child.debug_assert_sound();
+    child
 }
 
 /// The numbers of new vertices, and which faces are fanned.
