@@ -1,8 +1,9 @@
 //! What the window owns: the surface, the device, the head, and the state it shows.
 
+use super::dialog::{self, Purpose};
 use super::files;
 use super::run::{Launch, Wake};
-use super::state::{Command, Document, EditorState, Timing};
+use super::state::{Command, EditorState, Timing};
 use super::turn::{Recorded, Turn, drawing, milliseconds};
 use super::watch::{self, Watch};
 use crate::anatomy::save_breed;
@@ -46,6 +47,9 @@ pub(super) struct Host {
     watch: Watch,
     launch: Launch,
     title: String,
+    proxy: EventLoopProxy<Wake>,
+    /// A file dialog is open.
+    is_asking: bool,
 }
 
 impl Host {
@@ -85,9 +89,9 @@ impl Host {
         let (context, viewport) = (turn.context.clone(), egui::ViewportId::ROOT);
         let egui = egui_winit::State::new(context, viewport, &window, scale, window.theme(), Some(largest));
 
-        let proxy = proxy.clone();
+        let (proxy, news) = (proxy.clone(), proxy.clone());
         // A loop that has ended takes no more news, which is as well.
-        let mut watch = Watch::new(move |path| drop(proxy.send_event(Wake::Changed(path))));
+        let mut watch = Watch::new(move |path| drop(news.send_event(Wake::Changed(path))));
         if let Some(rigs) = &launch.rigs {
             watch.add(rigs);
             watch.add(&rigs.join("breeds"));
@@ -95,8 +99,9 @@ impl Host {
         if let Some(shaders) = &launch.shaders {
             watch.add(shaders);
         }
-        let title = String::new();
-        let mut host = Self { window, surface, config, egui, turn, sources, watch, launch: launch.clone(), title };
+        let (launch, title, is_asking) = (launch.clone(), String::new(), false);
+        let mut host =
+            Self { window, surface, config, egui, turn, sources, watch, launch, title, proxy, is_asking };
         host.watch_document();
         host.request_redraw();
         Ok(host)
@@ -185,22 +190,22 @@ impl Host {
                     self.turn.state.begin_new();
                     Ok(())
                 }
-                Command::Open => match breed_dialog(&self.turn.state).pick_file() {
-                    Some(path) => self.open(path),
-                    None => Err(no_choice("opened")),
-                },
+                Command::Open => self.ask(Purpose::Open),
                 Command::OpenPath(path) => self.open(path),
-                Command::Save => self.save_here(),
-                Command::SaveAs => self.save_as(),
-                Command::SaveAndQuit => match self.save_here() {
-                    Ok(()) => return (true, true),
-                    Err(text) => Err(text),
+                Command::Save => match self.turn.state.document().path.clone() {
+                    Some(path) => self.save(path),
+                    None => self.ask(Purpose::Save),
+                },
+                Command::SaveAs => self.ask(Purpose::Save),
+                Command::SaveAndQuit => match self.turn.state.document().path.clone() {
+                    Some(path) => match self.save(path) {
+                        Ok(()) => return (true, true),
+                        Err(text) => Err(text),
+                    },
+                    None => self.ask(Purpose::SaveAndQuit),
                 },
                 Command::SavePath(path) => self.save(path),
-                Command::Export => match export_dialog(&self.turn.state).save_file() {
-                    Some(path) => self.export(&path),
-                    None => Err(no_choice("exported")),
-                },
+                Command::Export => self.ask(Purpose::Export),
                 Command::ExportPath(path) => self.export(&path),
                 Command::Screenshot => self.screenshot(),
             };
@@ -213,24 +218,35 @@ impl Host {
 
     fn open(&mut self, path: PathBuf) -> Result<(), String> {
         let breed = files::read_breed(&self.turn.state.table, &path)?;
-        self.turn.state.say(format!("Opened {}", path.display()));
-        self.turn.state.open(Document::of(breed, Some(path)));
+        self.turn.state.was_read(breed, path);
         self.watch_document();
         Ok(())
     }
 
-    /// Under the known path, or asks for one.
-    fn save_here(&mut self) -> Result<(), String> {
-        match self.turn.state.document().path.clone() {
-            Some(path) => self.save(path),
-            None => self.save_as(),
+    /// Opens a dialog, one at a time; [`Host::was_chosen`] takes the answer.
+    fn ask(&mut self, purpose: Purpose) -> Result<(), String> {
+        if self.is_asking {
+            return Err("A file is already being asked for, in another window.".into());
         }
+        dialog::ask(purpose, &self.turn.state.breed().id, &self.window, self.proxy.clone())?;
+        self.is_asking = true;
+        Ok(())
     }
 
-    fn save_as(&mut self) -> Result<(), String> {
-        match breed_dialog(&self.turn.state).save_file() {
-            Some(path) => self.save(path),
-            None => Err(no_choice("saved")),
+    /// The answer of a dialog; `None` if no file was chosen.
+    pub(super) fn was_chosen(&mut self, purpose: Purpose, path: Option<PathBuf>) {
+        self.is_asking = false;
+        self.request_redraw();
+        let Some(path) = path else { return self.turn.state.complain(purpose.without_choice()) };
+        let commands = &mut self.turn.state.commands;
+        match purpose {
+            Purpose::Open => commands.push_back(Command::OpenPath(path)),
+            Purpose::Save => commands.push_back(Command::SavePath(path)),
+            Purpose::Export => commands.push_back(Command::ExportPath(path)),
+            Purpose::SaveAndQuit => match self.save(path) {
+                Ok(()) => self.turn.state.commands.push_back(Command::Quit),
+                Err(text) => self.turn.state.complain(text),
+            },
         }
     }
 
@@ -361,18 +377,4 @@ fn shaders_on_disk(folder: Option<&Path>) -> (ShaderSources, Vec<(String, String
         }
     }
     (sources, problems)
-}
-
-fn breed_dialog(state: &EditorState) -> rfd::FileDialog {
-    let name = format!("{}.ron", state.breed().id);
-    rfd::FileDialog::new().add_filter("Breed", &["ron"]).set_file_name(name)
-}
-
-fn export_dialog(state: &EditorState) -> rfd::FileDialog {
-    let name = format!("{}.glb", state.breed().id);
-    rfd::FileDialog::new().add_filter("glTF", &["glb"]).set_file_name(name)
-}
-
-fn no_choice(what: &str) -> String {
-    format!("Nothing was {what}: no file was chosen. A path can also be typed into the field File.")
 }

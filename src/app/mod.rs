@@ -4,6 +4,7 @@
 //! changes of it, `turn` makes one picture, `run` owns the window, the device and the file system.
 
 mod camera_control;
+mod dialog;
 pub mod disk;
 pub mod files;
 mod history;

@@ -1,5 +1,6 @@
 //! The window and its loop: events in, one picture a change out.
 
+use super::dialog::Purpose;
 use super::files;
 use super::host::{Host, HostError};
 use super::state::EditorState;
@@ -109,6 +110,8 @@ pub(super) fn begin(launch: &Launch) -> Result<EditorState, AppError> {
 pub(super) enum Wake {
     /// A file on disk was written.
     Changed(PathBuf),
+    /// A file dialog was answered.
+    Chosen(Purpose, Option<PathBuf>),
 }
 
 struct App {
@@ -151,9 +154,18 @@ impl ApplicationHandler<Wake> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, Wake::Changed(path): Wake) {
-        self.changed.insert(path);
-        self.read_at = Some(Instant::now() + SETTLE);
+    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
+        match wake {
+            Wake::Changed(path) => {
+                self.changed.insert(path);
+                self.read_at = Some(Instant::now() + SETTLE);
+            }
+            Wake::Chosen(purpose, path) => {
+                if let Some(host) = &mut self.host {
+                    host.was_chosen(purpose, path);
+                }
+            }
+        }
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {

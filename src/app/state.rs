@@ -298,8 +298,28 @@ impl EditorState {
         self.open(Document::of(Breed::defaults(&self.table), None));
     }
 
-    /// Takes another document; the old one can be had back by undo.
+    /// Takes another document; the old one can be had back by undo, which is said when it has unsaved changes.
     pub fn open(&mut self, document: Document) {
+        if let Some(way_back) = self.way_back() {
+            self.say(format!("{}: {way_back}", document.base.label));
+        }
+        self.take(document);
+    }
+
+    /// Takes what was read from a file, and says so.
+    pub fn was_read(&mut self, breed: Breed, path: PathBuf) {
+        let way_back = self.way_back().map(|way| format!("; {way}")).unwrap_or_default();
+        self.say(format!("Opened {}{way_back}", path.display()));
+        self.take(Document::of(breed, Some(path)));
+    }
+
+    /// Where unsaved changes will be when another document takes the place of this one.
+    fn way_back(&self) -> Option<String> {
+        let is_changed = self.document.is_changed();
+        is_changed.then(|| format!("undo (Ctrl+Z) brings back {} with its unsaved changes", self.shown.label))
+    }
+
+    fn take(&mut self, document: Document) {
         self.typed_path = typed(&document);
         self.change(|d| *d = document);
     }
@@ -371,7 +391,7 @@ impl EditorState {
         if let Some(stem) = path.file_stem() {
             saved.id = stem.to_string_lossy().into_owned();
         }
-        self.open(Document::of(saved, Some(path)));
+        self.take(Document::of(saved, Some(path)));
     }
 
     /// A breed has changed on disk: it takes the place of the one with its id, in the list and, as the base, in what
@@ -541,6 +561,28 @@ mod tests {
         state.set_value(0, state.table.specs[0].max_si());
         state.request_quit();
         assert!(state.asks_to_quit && state.commands.is_empty());
+    }
+
+    #[test]
+    fn unsaved_changes_give_way_to_another_head_only_with_a_word_of_how_to_get_them_back() {
+        let mut state = state();
+        let (one, other) = (state.breeds[1].clone(), PathBuf::from("other.ron"));
+        state.was_read(one.clone(), other.clone());
+        assert_eq!(state.message.as_ref().unwrap().text, "Opened other.ron");
+
+        state.set_value(0, state.table.specs[0].max_si());
+        let changed = state.breed().clone();
+        state.was_read(one, other);
+        assert!(state.message.as_ref().unwrap().text.contains(&format!("Ctrl+Z) brings back {}", changed.label)));
+        state.undo();
+        assert_eq!(*state.breed(), changed);
+
+        state.message = None;
+        state.choose(2);
+        assert!(state.message.as_ref().unwrap().text.contains("Ctrl+Z"));
+        state.message = None;
+        state.choose(3);
+        assert_eq!(state.message, None, "nothing is lost");
     }
 
     #[test]
