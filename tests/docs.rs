@@ -1,4 +1,4 @@
-//! `docs/parameters.md` says what `rigs/anatomy.ron` says. `UPDATE_DOCS=1` rewrites it.
+//! `docs/parameters.md` says what `rigs/anatomy.ron` says; `UPDATE_DOCS=1` rewrites it. No page has a place left open.
 #![cfg(feature = "head")]
 
 use londra::anatomy::{ParamSpec, ParamTable, Unit};
@@ -78,4 +78,26 @@ fn manual_of_parameters_is_stale() {
         made == committed,
         "docs/parameters.md is not what rigs/anatomy.ron says, from {at}: run UPDATE_DOCS=1 cargo test --test docs"
     );
+}
+
+/// A figure that was to be filled in: capitals between two at-signs.
+fn open_places(text: &str) -> Vec<&str> {
+    let is_open = |word: &&str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_uppercase());
+    // What stands between two signs is every piece but the first and the last.
+    let pieces: Vec<&str> = text.split('@').collect();
+    let between = pieces.get(1..pieces.len() - 1).unwrap_or_default();
+    between.iter().copied().filter(is_open).collect()
+}
+
+#[test]
+fn a_page_has_a_place_that_was_to_be_filled_in() {
+    let sign = '@';
+    assert_eq!(open_places(&format!("a {sign}P{sign} b {sign}HEAD{sign}, me{sign}home")), ["P", "HEAD"]);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let pages = [root, &root.join("docs")].map(|folder| std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{e}")));
+    let pages = pages.into_iter().flatten().flatten().map(|entry| entry.path());
+    for page in pages.filter(|path| path.extension().is_some_and(|e| e == "md")) {
+        let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
+        assert_eq!(open_places(&text), [""; 0], "{}", page.display());
+    }
 }

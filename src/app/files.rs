@@ -52,6 +52,11 @@ fn breed_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The path with the working folder before it, to tell where a file is: a window does not show where it was started.
+pub fn in_full(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// The first of NAME.ENDING, NAME-1.ENDING, NAME-2.ENDING… that is not taken.
 pub fn free_path(folder: &Path, name: &str, ending: &str) -> PathBuf {
     let plain = folder.join(format!("{name}.{ending}"));

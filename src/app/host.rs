@@ -100,8 +100,7 @@ impl Host {
             watch.add(shaders);
         }
         let (launch, title, is_asking) = (launch.clone(), String::new(), false);
-        let mut host =
-            Self { window, surface, config, egui, turn, sources, watch, launch, title, proxy, is_asking };
+        let mut host = Self { window, surface, config, egui, turn, sources, watch, launch, title, proxy, is_asking };
         host.watch_document();
         host.request_redraw();
         Ok(host)
@@ -226,7 +225,8 @@ impl Host {
     /// Opens a dialog, one at a time; [`Host::was_chosen`] takes the answer.
     fn ask(&mut self, purpose: Purpose) -> Result<(), String> {
         if self.is_asking {
-            return Err("A file is already being asked for, in another window.".into());
+            let text = "A file is already being asked for in another window. A path can be typed into the field File.";
+            return Err(text.into());
         }
         dialog::ask(purpose, &self.turn.state.breed().id, &self.window, self.proxy.clone())?;
         self.is_asking = true;
@@ -254,7 +254,7 @@ impl Host {
         let is_no_breed = path.extension().is_none_or(|e| e == "glb");
         let path = if is_no_breed { path.with_extension("ron") } else { path };
         files::write(&path, save_breed(&self.turn.state.table, self.turn.state.breed()).as_bytes())?;
-        self.turn.state.say(format!("Saved {}", path.display()));
+        self.turn.state.say(format!("Saved {}", files::in_full(&path).display()));
         self.turn.state.was_saved(path);
         self.watch_document();
         Ok(())
@@ -267,7 +267,7 @@ impl Host {
         let bytes = export::to_glb(&frame, &self.turn.state.table, &breed, &GlbOptions::default());
         let bytes = bytes.map_err(|e| e.to_string())?;
         files::write(&path, &bytes)?;
-        self.turn.state.say(format!("Exported {}", path.display()));
+        self.turn.state.say(format!("Exported {}", files::in_full(&path).display()));
         Ok(())
     }
 
@@ -281,7 +281,7 @@ impl Host {
         let beside = self.turn.state.document().path.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
         let path = files::free_path(beside, &breed.id, "png");
         files::write(&path, &png)?;
-        self.turn.state.say(format!("Wrote {}", path.display()));
+        self.turn.state.say(format!("Wrote {}", files::in_full(&path).display()));
         Ok(())
     }
 

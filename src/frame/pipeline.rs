@@ -1,8 +1,8 @@
 //! The frame's inner loop: a breed in, drawable parts out. Owns every buffer; in the steady state
 //! it allocates nothing but the list of four parts that a frame lends out.
 //!
-//! Lifetimes: a plan for each level that was asked for, made once; shape buffers written when the values changed; colours
-//! when the look did.
+//! Lifetimes: the plan of a level until another is asked for; shape buffers written when the values changed; colours when
+//! the look did.
 
 use super::parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
 use super::{StageHashes, eyeball, skin};
