@@ -148,6 +148,7 @@ impl Plan {
                 Rings::of(mesh.n_vertices(), n_entries, |v| mesh.ring(v), |v| mesh.is_boundary_vertex(v))
             }),
             limit: None,
+            patches: None,
             indices,
             fingerprint: hash.finish(),
         })

@@ -37,7 +37,7 @@ impl Evaluator {
         assert_eq!(control.len(), n_heads * n_control, "whole heads");
         assert_eq!(positions.len(), n_heads * n, "as many positions as heads");
         assert_eq!(normals.len(), n_heads * n_normals(plan), "as many normals as heads, or none");
-        if plan.limit().is_some() {
+        if plan.limit().is_some() || plan.patches.is_some() {
             for head in 0..n_heads {
                 let normals = match n_normals(plan) {
                     0 => &mut [],

@@ -10,14 +10,15 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::limit::LimitTable;
 use super::normals::{RingRun, Rings};
-use super::plan::{Counts, Plan};
+use super::plan::{Counts, Plan, wants_limit};
 use super::runs::Run;
 use super::scheme::{BoundaryRule, Creasing, LoopWeights, Normals, PlanOptions, Positions, Scheme};
+use super::shared_patches::{Class, SharedPatches};
 use super::stencil::{StencilTable, all_below};
 
 const MARK: [u8; 8] = *b"LONDRAPL";
 /// Raised with each change of what follows; older versions are refused, since a plan can always be built anew.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why bytes are no plan, or not the one asked for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -83,28 +84,16 @@ impl Plan {
         let counts: Vec<u64> = self.counts.iter().flat_map(|c| [c.n_vertices as u64, c.n_faces as u64]).collect();
         writer.list(&counts);
         writer.number(self.tables.len());
-        for table in &self.tables {
-            writer.number(table.n_sources);
-            writer.number(table.n_rows);
-            writer.list(&table.sources);
-            writer.list(&table.weights);
-            writer.list(&table.runs);
-        }
+        self.tables.iter().for_each(|table| writer.table(table));
         for list in [&self.face_sizes, &self.corners, &self.indices, &self.face_parent] {
             writer.list(list);
         }
         writer.list(&self.boundary_loops.iter().map(|l| l.len() as u64).collect::<Vec<_>>());
         writer.list(&self.boundary_loops.concat());
-        writer.number(usize::from(self.rings.is_some()));
-        if let Some(rings) = &self.rings {
-            writer.list(&rings.neighbours);
-            writer.list(&rings.runs);
-        }
-        writer.number(usize::from(self.limit.is_some()));
-        if let Some(limit) = &self.limit {
-            writer.list(&limit.sources);
-            writer.list(&limit.weights);
-            writer.list(&limit.runs);
+        writer.surface(self.rings.as_ref(), self.limit.as_ref());
+        writer.number(usize::from(self.patches.is_some()));
+        if let Some(patches) = &self.patches {
+            writer.patches(patches);
         }
         let mut bytes = writer.bytes;
         let (header, body) = bytes.split_at_mut(size_of::<Header>());
@@ -169,6 +158,42 @@ impl Writer {
         self.bytes.extend_from_slice(bytemuck::cast_slice(list));
         to_little_endian(&mut self.bytes[start..], element_size::<T>());
         self.bytes.resize(self.bytes.len().next_multiple_of(8), 0);
+    }
+
+    fn table(&mut self, table: &StencilTable) {
+        self.number(table.n_sources);
+        self.number(table.n_rows);
+        self.list(&table.sources);
+        self.list(&table.weights);
+        self.list(&table.runs);
+    }
+
+    /// What makes limits and normals of positions.
+    fn surface(&mut self, rings: Option<&Rings>, limit: Option<&LimitTable>) {
+        self.number(usize::from(rings.is_some()));
+        if let Some(rings) = rings {
+            self.list(&rings.neighbours);
+            self.list(&rings.runs);
+        }
+        self.number(usize::from(limit.is_some()));
+        if let Some(limit) = limit {
+            self.list(&limit.sources);
+            self.list(&limit.weights);
+            self.list(&limit.runs);
+        }
+    }
+
+    fn patches(&mut self, patches: &SharedPatches) {
+        self.number(patches.classes.len());
+        for class in &patches.classes {
+            self.number(class.steps.len());
+            class.steps.iter().for_each(|table| self.table(table));
+            self.number(class.n_rows);
+            self.surface(class.rings.as_ref(), class.limit.as_ref());
+        }
+        self.list(&patches.groups);
+        self.list(&patches.sources);
+        self.list(&patches.deliveries);
     }
 
     fn options(&mut self, options: &PlanOptions) {
@@ -319,12 +344,11 @@ impl Reader<'_> {
         }
         self.check(rest.is_empty())?;
 
-        self.part = "rings";
-        let rings = if self.number()? != 0 { Some(self.rings(n_vertices)?) } else { None };
+        let (rings, limit) = self.surface(n_vertices, n_vertices)?;
+        self.part = "normals";
         self.check(rings.is_some() == (options.normals == Normals::Faces))?;
-        self.part = "limit table";
-        let limit = if self.number()? != 0 { Some(self.limit(n_vertices)?) } else { None };
         self.check(options.normals != Normals::Limit || limit.is_some())?;
+        let patches = if self.number()? != 0 { Some(self.patches(n_control, n_vertices, &options)?) } else { None };
         Ok(Plan {
             options,
             n_control,
@@ -338,6 +362,7 @@ impl Reader<'_> {
             boundary_loops,
             rings,
             limit,
+            patches,
             fingerprint,
         })
     }
@@ -351,11 +376,41 @@ impl Reader<'_> {
         Ok(table)
     }
 
-    fn limit(&mut self, n_rows: usize) -> Read<LimitTable> {
+    /// Rings and limits of `n_rows` vertices among `n_sources`, where there are any.
+    fn surface(&mut self, n_rows: usize, n_sources: usize) -> Read<(Option<Rings>, Option<LimitTable>)> {
+        self.part = "rings";
+        let rings = if self.number()? != 0 { Some(self.rings(n_rows, n_sources)?) } else { None };
+        self.part = "limit table";
+        let limit = if self.number()? != 0 { Some(self.limit(n_rows, n_sources)?) } else { None };
+        Ok((rings, limit))
+    }
+
+    fn limit(&mut self, n_rows: usize, n_sources: usize) -> Read<LimitTable> {
         let table = LimitTable { n_rows, sources: self.list()?, weights: self.list()?, runs: self.list()? };
-        self.check(all_below(&table.sources, n_rows))?;
+        self.check(all_below(&table.sources, n_sources))?;
         self.check_runs(&table.runs, n_rows, table.sources.len(), table.weights.len())?;
         Ok(table)
+    }
+
+    fn patches(&mut self, n_control: usize, n_vertices: usize, options: &PlanOptions) -> Read<SharedPatches> {
+        self.part = "patches";
+        let n_classes = self.number()?;
+        let mut classes = Vec::new();
+        for _ in 0..n_classes {
+            let n_steps = self.number()?;
+            self.check(n_steps == options.levels as usize && n_steps > 0)?;
+            let steps: Vec<StencilTable> = (0..n_steps).map(|_| self.table()).collect::<Read<_>>()?;
+            let n_rows = self.number()?;
+            let (rings, limit) = self.surface(n_rows, steps[n_steps - 1].n_rows)?;
+            self.part = "patches";
+            self.check(rings.is_some() == (options.normals == Normals::Faces))?;
+            self.check(limit.is_some() == wants_limit(options))?;
+            classes.push(Class { steps, n_rows, limit, rings });
+        }
+        let (groups, sources, deliveries) = (self.list()?, self.list()?, self.list()?);
+        let patches = SharedPatches { n_control, n_vertices, classes, groups, sources, deliveries };
+        self.check(patches.is_sound())?;
+        Ok(patches)
     }
 
     fn check_runs(&self, runs: &[Run], n_rows: usize, n_entries: usize, n_weights: usize) -> Read<()> {
@@ -371,9 +426,9 @@ impl Reader<'_> {
         self.check(row == n_rows && entry == n_entries)
     }
 
-    fn rings(&mut self, n_vertices: usize) -> Read<Rings> {
+    fn rings(&mut self, n_vertices: usize, n_sources: usize) -> Read<Rings> {
         let rings = Rings { neighbours: self.list()?, runs: self.list::<RingRun>()?, n_vertices };
-        self.check(all_below(&rings.neighbours, n_vertices))?;
+        self.check(all_below(&rings.neighbours, n_sources))?;
         let (mut vertex, mut entry) = (0, 0);
         for (i, run) in rings.runs.iter().enumerate() {
             let end = rings.runs.get(i + 1).map_or(n_vertices, |next| next.first_vertex as usize);

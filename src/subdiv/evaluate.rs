@@ -7,6 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::batch::Octets;
 use super::kernels;
 use super::lane::Lane;
+use super::patch_kernels::PatchBuffers;
 use super::plan::Plan;
 use super::scheme::{Normals, Positions};
 use super::stencil::StencilTable;
@@ -92,7 +93,8 @@ impl Evaluator {
         assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
         assert_eq!(positions.len(), plan.n_vertices(), "one position for each vertex of the last level");
         assert_eq!(normals.len(), n_normals(plan), "one normal for each vertex of the last level, if the plan has any");
-        self.buffers.fit(plan);
+        let threads = self.threads();
+        self.buffers.fit(plan, threads);
         let buffers = &mut self.buffers;
         in_pool(self.pool.as_ref(), plan, |parallel| buffers.surface(plan, control, positions, normals, parallel));
     }
@@ -105,7 +107,8 @@ impl Evaluator {
     pub fn evaluate_attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3]) {
         assert_eq!(control.len(), plan.n_control(), "one value for each control vertex");
         assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
-        self.buffers.fit(plan);
+        let threads = self.threads();
+        self.buffers.fit(plan, threads);
         let buffers = &mut self.buffers;
         in_pool(self.pool.as_ref(), plan, |parallel| buffers.attribute(plan, control, out, parallel));
     }
@@ -117,7 +120,8 @@ impl Evaluator {
 
     /// Makes the buffers fit; does nothing where they do.
     fn fit(&mut self, plan: &Plan) {
-        self.buffers.fit(plan);
+        let threads = self.threads();
+        self.buffers.fit(plan, threads);
         self.positions.resize(plan.n_vertices(), Vec3::ZERO);
         self.normals.resize(n_normals(plan), Vec3::ZERO);
     }
@@ -145,11 +149,16 @@ struct Buffers {
     finest: Vec<Lane>,
     /// Where it goes, for plans with limit positions and normals from faces.
     limit: Vec<Lane>,
+    /// For plans with patches, which need nothing else: one for each share of the work.
+    patches: Vec<PatchBuffers>,
 }
 
 impl Buffers {
     /// Grows where a plan needs more; a smaller one uses the front.
-    fn fit(&mut self, plan: &Plan) {
+    fn fit(&mut self, plan: &Plan, threads: usize) {
+        if let Some(patches) = &plan.patches {
+            return patches.fit(&mut self.patches, threads);
+        }
         let n_between = plan.tables().iter().map(StencilTable::n_sources).max().unwrap_or(0);
         for (buffer, n) in [
             (&mut self.coarse, n_between),
@@ -164,6 +173,10 @@ impl Buffers {
     }
 
     fn surface(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3], parallel: bool) {
+        if let Some(patches) = &plan.patches {
+            let wanted = plan.options().positions;
+            return patches.evaluate(wanted, control, positions, normals, &mut self.patches, parallel);
+        }
         if !needs_lanes(plan) {
             return self.refine_into(plan, control, positions, parallel);
         }
@@ -192,6 +205,10 @@ impl Buffers {
     }
 
     fn attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], parallel: bool) {
+        if let Some(patches) = &plan.patches {
+            let wanted = plan.options().positions;
+            return patches.evaluate(wanted, control, out, &mut [], &mut self.patches, parallel);
+        }
         if plan.limit().is_none() || plan.options().positions == Positions::Level {
             return self.refine_into(plan, control, out, parallel);
         }

@@ -23,9 +23,9 @@ use super::stencil::all_below;
 const FALLBACK: Vec3 = Vec3::Y;
 
 /// Below this squared length, in the units of area squared, the sum is scaled up before it is normalised.
-const TINY: f32 = 1e-30;
+pub(super) const TINY: f32 = 1e-30;
 /// Above this one it is scaled down.
-const HUGE: f32 = 1e30;
+pub(super) const HUGE: f32 = 1e30;
 
 /// Vertices whose sums are made unit vectors together.
 const BLOCK: usize = 64;
@@ -56,22 +56,52 @@ impl Rings {
         ring: impl Fn(VertexId) -> R,
         is_boundary: impl Fn(VertexId) -> bool,
     ) -> Rings {
-        let mut neighbours = Vec::with_capacity(n_entries);
-        let mut runs: Vec<RingRun> = Vec::new();
-        for vertex in (0..n_vertices as u32).map(VertexId) {
-            let first_entry = neighbours.len();
-            if is_boundary(vertex) {
-                neighbours.push(vertex.0);
-            }
-            neighbours.extend(ring(vertex).map(|v| v.0));
-            let len = (neighbours.len() - first_entry) as u32;
-            if runs.last().is_none_or(|run| run.len != len) {
-                runs.push(RingRun { first_vertex: vertex.0, first_entry: first_entry as u32, len });
-            }
-        }
+        let lists = (0..n_vertices as u32).map(VertexId).map(|vertex| {
+            let itself = is_boundary(vertex).then_some(vertex.0);
+            itself.into_iter().chain(ring(vertex).map(|v| v.0))
+        });
+        let rings = Rings::of_lists(lists, n_entries);
         // The kernels rely on it.
-        assert!(all_below(&neighbours, n_vertices), "a ring names a vertex that does not exist");
-        Rings { neighbours, runs, n_vertices }
+        assert!(all_below(&rings.neighbours, n_vertices), "a ring names a vertex that does not exist");
+        rings
+    }
+
+    /// Rings as given, one after another.
+    pub(super) fn of_lists<L: Iterator<Item = u32>>(lists: impl Iterator<Item = L>, n_entries: usize) -> Rings {
+        let mut rings = Rings { neighbours: Vec::with_capacity(n_entries), runs: Vec::new(), n_vertices: 0 };
+        for list in lists {
+            let first_entry = rings.neighbours.len();
+            rings.neighbours.extend(list);
+            let len = (rings.neighbours.len() - first_entry) as u32;
+            if rings.runs.last().is_none_or(|run| run.len != len) {
+                let first_vertex = rings.n_vertices as u32;
+                rings.runs.push(RingRun { first_vertex, first_entry: first_entry as u32, len });
+            }
+            rings.n_vertices += 1;
+        }
+        rings
+    }
+
+    /// The vertices of a run, their outlines, and the length of each.
+    ///
+    /// # Panics
+    /// Where there is no such run.
+    pub(super) fn run(&self, run: usize) -> (Range<usize>, &[u32], usize) {
+        let RingRun { first_vertex, first_entry, len } = self.runs[run];
+        let (first, len) = (first_vertex as usize, len as usize);
+        let end = self.runs.get(run + 1).map_or(self.n_vertices, |next| next.first_vertex as usize);
+        (first..end, &self.neighbours[first_entry as usize..][..len * (end - first)], len)
+    }
+
+    /// The ring of one vertex.
+    ///
+    /// # Panics
+    /// Where there is no such vertex.
+    pub(super) fn ring(&self, vertex: usize) -> &[u32] {
+        assert!(vertex < self.n_vertices, "vertex {vertex} of {}", self.n_vertices);
+        let run = self.runs[self.runs.partition_point(|run| run.first_vertex as usize <= vertex) - 1];
+        let entry = run.first_entry as usize + (vertex - run.first_vertex as usize) * run.len as usize;
+        &self.neighbours[entry..entry + run.len as usize]
     }
 
     /// For each vertex where its outline starts, and one entry more that ends the last; with an unused second number.
@@ -210,13 +240,18 @@ pub(super) fn unit_vectors(out: &mut [Vec3], mut sum: impl FnMut(usize) -> Lane)
     }
     for (i, out) in rest.iter_mut().enumerate() {
         let [z, x, y, _] = sum(n_fours + i).0.to_array();
-        let squared = x * x + y * y + z * z;
-        let inverse = 1.0 / ops::sqrt(squared);
-        *out = if squared > TINY && squared < HUGE {
-            Vec3::new(x * inverse, y * inverse, z * inverse)
-        } else {
-            unit_of_extreme(Vec3::new(x, y, z))
-        };
+        *out = unit_of(Vec3::new(x, y, z));
+    }
+}
+
+/// The unit vector along one sum.
+pub(super) fn unit_of(sum: Vec3) -> Vec3 {
+    let squared = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+    let inverse = 1.0 / ops::sqrt(squared);
+    if squared > TINY && squared < HUGE {
+        Vec3::new(sum.x * inverse, sum.y * inverse, sum.z * inverse)
+    } else {
+        unit_of_extreme(sum)
     }
 }
 

@@ -7,6 +7,7 @@ use super::limit::LimitTable;
 use super::normals::Rings;
 use super::prepare::{self, Prepared};
 use super::scheme::{Normals, PlanOptions, Positions, Scheme};
+use super::shared_patches::SharedPatches;
 use super::stencil::StencilTable;
 use super::steps::{Last, Steps};
 use super::tags::{TagError, Tags};
@@ -98,6 +99,8 @@ pub struct Plan {
     pub(super) boundary_loops: Vec<Vec<u32>>,
     pub(super) rings: Option<Rings>,
     pub(super) limit: Option<LimitTable>,
+    /// Where they are worth it; an evaluation then takes nothing else.
+    pub(super) patches: Option<SharedPatches>,
     pub(super) fingerprint: u64,
 }
 
@@ -122,7 +125,9 @@ impl Plan {
         }
         let prepared = prepare::triangles(control, tags, options)?;
         let fingerprint = fingerprint(control.n_vertices(), &[], control.indices(), tags, options);
-        Plan::finish(prepared, options, control.n_vertices(), fingerprint)
+        let mut plan = Plan::finish(prepared, options, control.n_vertices(), fingerprint)?;
+        plan.patches = SharedPatches::build(control, tags, &plan);
+        Ok(plan)
     }
 
     /// The same for polygons.
@@ -163,6 +168,7 @@ impl Plan {
             boundary_loops: Vec::new(),
             rings: None,
             limit: None,
+            patches: None,
             fingerprint,
         };
         let wants_rings = options.normals == Normals::Faces;
@@ -329,6 +335,11 @@ impl Plan {
             + self.limit.as_ref().map_or(0, LimitTable::n_bytes)
     }
 
+    /// Bytes of the patches that share their rows, where the plan has them: an evaluation reads them instead of the tables.
+    pub fn n_patch_bytes(&self) -> usize {
+        self.patches.as_ref().map_or(0, SharedPatches::n_bytes)
+    }
+
     /// Bytes of the index buffer.
     pub fn n_index_bytes(&self) -> usize {
         size_of_val(&self.indices[..])
@@ -392,7 +403,7 @@ impl DoublePlan {
     }
 }
 
-fn wants_limit(options: &PlanOptions) -> bool {
+pub(super) fn wants_limit(options: &PlanOptions) -> bool {
     // Control points of an interpolating scheme are limit points already.
     (options.positions == Positions::Limit && !options.scheme.is_interpolating()) || options.normals == Normals::Limit
 }

@@ -15,7 +15,8 @@ use super::maps::composed;
 use crate::math::fnv::Fnv64;
 use crate::mesh::{DedgeId, DedgeMesh, FaceId, VertexId};
 use crate::subdiv::plan::{DoublePlan, Plan, PlanError};
-use crate::subdiv::scheme::{Normals, PlanOptions, Positions, Split};
+use crate::subdiv::scheme::{Normals, PlanOptions, Positions};
+use crate::subdiv::shared_patches::child_order;
 use crate::subdiv::stencil::StencilTable;
 use crate::subdiv::tags::Tags;
 
@@ -108,24 +109,6 @@ struct Set {
     n_rows: usize,
     n_entries: usize,
     n_sources: usize,
-}
-
-/// The children of a triangle after some steps, in the order in which they come when corner `turn` comes first, each with
-/// its own corner that comes first.
-fn child_order(split: Split, levels: u32, turn: u8) -> Vec<(usize, u8)> {
-    let mut order = vec![(0, turn)];
-    for _ in 0..levels {
-        let children = |(parent, turn): (usize, u8)| {
-            let outer = (0..3).map(move |k| usize::from((k + turn) % 3));
-            let (n, middle) = match split {
-                Split::Quarters => (4, Some((3, turn))),
-                _ => (3, None),
-            };
-            outer.map(|k| (k, 0)).chain(middle).map(move |(k, turn)| (n * parent + k, turn)).collect::<Vec<_>>()
-        };
-        order = order.into_iter().flat_map(children).collect();
-    }
-    order
 }
 
 /// The vertices of a patch, each once, in that order.
