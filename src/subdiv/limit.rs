@@ -101,8 +101,16 @@ impl<W: Weight> LimitTable<W> {
             weights: Vec::new(),
             runs: Vec::new(),
         };
-        let mut rows =
-            Rows { level, options, steps, table, here: Neighbourhood::default(), row: Vec::new(), rounded: Vec::new() };
+        let mut rows = Rows {
+            level,
+            options,
+            steps,
+            table,
+            here: Neighbourhood::default(),
+            row: Vec::new(),
+            rounded: Vec::new(),
+            smooth: Vec::new(),
+        };
         for vertex in level.mesh.vertices() {
             rows.vertex(vertex);
             rows.write();
@@ -122,6 +130,8 @@ struct Rows<'a, W> {
     /// The row in the making: the vertex, then its whole ring, then what else there is.
     row: Vec<(u32, [f64; 3])>,
     rounded: Vec<[W; 3]>,
+    /// For each valence met so far the weights of a smooth vertex and its ring: sines are slow.
+    smooth: Vec<Vec<[f64; 3]>>,
 }
 
 impl<W: Weight> Rows<'_, W> {
@@ -234,14 +244,24 @@ impl<W: Weight> Rows<'_, W> {
 
     fn smooth(&mut self, moves: bool) {
         let n = self.row.len() - 1;
-        let mask = match self.options.scheme {
-            Scheme::Loop => loop_scheme::limit_inner(n, self.options.loop_weights),
-            _ => sqrt3::limit_inner(n),
-        };
-        self.row[0].1[0] = if moves { mask.centre } else { 1.0 };
-        for i in 0..n {
-            let [t1, t2] = mask.tangents(i);
-            self.row[1 + i].1 = [if moves { mask.neighbour } else { 0.0 }, t1, t2];
+        if self.smooth.len() <= n {
+            self.smooth.resize(n + 1, Vec::new());
+        }
+        let weights = &mut self.smooth[n];
+        if weights.is_empty() {
+            let mask = match self.options.scheme {
+                Scheme::Loop => loop_scheme::limit_inner(n, self.options.loop_weights),
+                _ => sqrt3::limit_inner(n),
+            };
+            weights.push([mask.centre, 0.0, 0.0]);
+            weights.extend((0..n).map(|i| mask.tangents(i)).map(|[t1, t2]| [mask.neighbour, t1, t2]));
+        }
+        for (row, weights) in self.row.iter_mut().zip(weights) {
+            row.1 = *weights;
+        }
+        if !moves {
+            self.row.iter_mut().for_each(|row| row.1[0] = 0.0);
+            self.row[0].1[0] = 1.0;
         }
     }
 
