@@ -4,7 +4,6 @@ use glam::Vec3;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::batch::Octets;
 use super::kernels;
 use super::lane::Lane;
 use super::patch_kernels::PatchBuffers;
@@ -36,7 +35,8 @@ pub struct Surface<'a> {
 #[derive(Debug)]
 pub struct Evaluator {
     buffers: Buffers,
-    octets: Octets,
+    /// For a batch: one for each thread.
+    litters: Vec<Evaluator>,
     /// What [`Evaluator::evaluate`] lends out.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -47,13 +47,7 @@ pub struct Evaluator {
 impl Evaluator {
     /// Buffers for a plan, and one thread.
     pub fn new(plan: &Plan) -> Evaluator {
-        let mut evaluator = Evaluator {
-            buffers: Buffers::default(),
-            octets: Octets::default(),
-            positions: Vec::new(),
-            normals: Vec::new(),
-            pool: None,
-        };
+        let mut evaluator = Evaluator::empty();
         evaluator.fit(plan);
         evaluator
     }
@@ -113,9 +107,22 @@ impl Evaluator {
         in_pool(self.pool.as_ref(), plan, |parallel| buffers.attribute(plan, control, out, parallel));
     }
 
-    /// For a batch: the threads, if there are several, and buffers for one.
-    pub(super) fn threads_and_octets(&mut self) -> (Option<&ThreadPool>, &mut Octets) {
-        (self.pool.as_ref(), &mut self.octets)
+    /// For a batch: the threads, and an evaluator for each.
+    pub(super) fn threads_and_litters(&mut self) -> (Option<&ThreadPool>, &mut [Evaluator]) {
+        let n = self.threads();
+        self.litters.resize_with(n, Evaluator::empty);
+        (self.pool.as_ref(), &mut self.litters)
+    }
+
+    /// No buffers, and one thread.
+    fn empty() -> Evaluator {
+        Evaluator {
+            buffers: Buffers::default(),
+            litters: Vec::new(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            pool: None,
+        }
     }
 
     /// Makes the buffers fit; does nothing where they do.

@@ -7,7 +7,7 @@
 
 use glam::Vec3;
 
-use super::lane::{Lane, Octet, Value};
+use super::lane::Lane;
 use super::limit::LimitTable;
 use super::normals::unit_vectors;
 use super::runs::pieces;
@@ -25,13 +25,7 @@ pub(super) fn fetch<V: Copy>(values: &[V], source: u32) -> V {
 
 /// Computes the rows from `first_row` on, one for each place in `out`, and hands each to `put`.
 #[inline(always)]
-fn apply<V: Value, T>(
-    table: &StencilTable,
-    first_row: usize,
-    source: &[V],
-    out: &mut [T],
-    put: impl Fn(&mut T, V) + Copy,
-) {
+fn apply<T>(table: &StencilTable, first_row: usize, source: &[Lane], out: &mut [T], put: impl Fn(&mut T, Lane) + Copy) {
     assert_eq!(source.len(), table.n_sources, "one value for each source");
     assert!(first_row + out.len() <= table.n_rows, "at most one value for each row");
     for piece in pieces(&table.runs, table.n_rows, first_row..first_row + out.len()) {
@@ -103,12 +97,6 @@ pub(super) fn apply_lanes(table: &StencilTable, first_row: usize, source: &[Lane
 #[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx"))]
 pub(super) fn apply_positions(table: &StencilTable, first_row: usize, source: &[Lane], out: &mut [Vec3]) {
     apply(table, first_row, source, out, |out, sum| *out = sum.into());
-}
-
-/// The rows of eight heads.
-#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2", "x86_64+avx"))]
-pub(super) fn apply_octets(table: &StencilTable, first_row: usize, source: &[Octet], out: &mut [Octet]) {
-    apply(table, first_row, source, out, |out, sum| *out = sum);
 }
 
 /// Computes limit positions from row `first` on, one for each place in `out`.

@@ -10,13 +10,13 @@
 use std::ops::Range;
 
 use glam::Vec3;
-use wide::{f32x4, f32x8};
+use wide::f32x4;
 
 use crate::math::ops;
 use crate::mesh::VertexId;
 
 use super::kernels::fetch;
-use super::lane::{Lane, Octet, Value};
+use super::lane::Lane;
 use super::stencil::all_below;
 
 /// The normal where none is defined: the triangles around the vertex have no area, or a position is not finite.
@@ -26,9 +26,6 @@ const FALLBACK: Vec3 = Vec3::Y;
 pub(super) const TINY: f32 = 1e-30;
 /// Above this one it is scaled down.
 pub(super) const HUGE: f32 = 1e30;
-
-/// Vertices whose sums are made unit vectors together.
-const BLOCK: usize = 64;
 
 /// The outline of the faces around each vertex, in compressed form: the one-ring inside the surface; on the boundary the
 /// vertex itself and then its ring.
@@ -141,43 +138,6 @@ fn normals(rings: &Rings, first: usize, positions: &[Lane], out: &mut [Vec3]) {
     });
 }
 
-/// Unit normals of eight heads, of the vertices from `first` on, into as many places from `first` on of each of `heads`.
-#[multiversion::multiversion(targets("x86_64+avx512f+avx512vl", "x86_64+avx2", "x86_64+avx"))]
-pub(super) fn octet_normals(rings: &Rings, positions: &[Octet], heads: &mut [&mut [Vec3]]) {
-    assert_eq!(positions.len(), rings.n_vertices, "one position for each vertex");
-    let mut areas = [Octet::default(); BLOCK];
-    let mut first = 0;
-    while first < rings.n_vertices {
-        let n = BLOCK.min(rings.n_vertices - first);
-        rings.for_runs(first, n, |at, len, outlines| {
-            for (area, outline) in areas[at].iter_mut().zip(outlines.chunks_exact(len)) {
-                *area = vector_area(outline, positions);
-            }
-        });
-        for (i, &area) in areas[..n].iter().enumerate() {
-            let squared = area.squared();
-            let inverse = f32x8::splat(1.0) / squared.sqrt();
-            (area * inverse).scatter(heads, first + i);
-            let squared = squared.to_array();
-            if squared.iter().any(|&squared| !(squared > TINY && squared < HUGE)) {
-                settle_octet(area, first + i, heads);
-            }
-        }
-        first += n;
-    }
-}
-
-#[cold]
-fn settle_octet(area: Octet, vertex: usize, heads: &mut [&mut [Vec3]]) {
-    let (x, y, z) = (area.x.to_array(), area.y.to_array(), area.z.to_array());
-    for (head, out) in heads.iter_mut().enumerate() {
-        let sum = Vec3::new(x[head], y[head], z[head]);
-        if is_extreme(sum) {
-            out[vertex] = unit_of_extreme(sum);
-        }
-    }
-}
-
 impl Rings {
     /// The outlines of `n` vertices from `first` on, run by run: places counted from `first`, the length of each outline,
     /// and all of them.
@@ -199,9 +159,9 @@ impl Rings {
 
 /// Twice the vector area of a closed outline of two vertices or more.
 #[inline(always)]
-fn vector_area<V: Value>(outline: &[u32], positions: &[V]) -> V {
+fn vector_area(outline: &[u32], positions: &[Lane]) -> Lane {
     let corner = fetch(positions, outline[0]);
-    let mut sum = V::default();
+    let mut sum = Lane::default();
     let mut i = 1;
     // From the corner over the next two to the third.
     while i + 2 < outline.len() {
