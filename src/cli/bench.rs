@@ -70,7 +70,7 @@ pub(super) fn run(args: &Bench) -> Result<(), Failure> {
             "control_vertices": plan.n_control(), "out_vertices": n_vertices, "out_faces": plan.n_faces(),
             "median_ns": median_ns, "ns_per_vertex": ns_per_vertex, "copy_ns": copy_ns, "x_copy": x_copy,
             "plan_build_ns": plan_build_ns, "plan_bytes": plan.n_table_bytes(), "index_bytes": plan.n_index_bytes(),
-            "ring_bytes": plan.n_ring_bytes(),
+            "ring_bytes": plan.n_ring_bytes(), "patch_bytes": plan.n_patch_bytes(),
         }));
     }
     let delivered = match (args.limit, args.normals) {
@@ -88,7 +88,13 @@ pub(super) fn run(args: &Bench) -> Result<(), Failure> {
         ("build", format!("{:.2} ms", plan_build_ns / 1e6)),
         (
             "bytes",
-            format!("{} tables, {} indices, {} rings", plan.n_table_bytes(), plan.n_index_bytes(), plan.n_ring_bytes()),
+            format!(
+                "{} tables, {} rows by patch, {} indices, {} rings",
+                plan.n_table_bytes(),
+                plan.n_patch_bytes(),
+                plan.n_index_bytes(),
+                plan.n_ring_bytes()
+            ),
         ),
     ];
     output::result(&rows.map(|(name, value)| format!("{name:<9} {value}")).join("\n"))
