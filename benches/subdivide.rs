@@ -36,15 +36,32 @@ fn read(path: &str) -> (DedgeMesh, Vec<Vec3>) {
 
 /// Median seconds of a frame, over half a second of them.
 fn median(mut frame: impl FnMut(usize)) -> f64 {
-    (0..3).for_each(&mut frame);
-    let (start, mut times) = (Instant::now(), Vec::new());
-    while times.len() < 11 || start.elapsed() < Duration::from_millis(500) {
-        let begin = Instant::now();
-        frame(times.len());
-        times.push(begin.elapsed().as_secs_f64());
+    contest([&mut frame])[0]
+}
+
+/// Seconds of a frame of each, taking turns, so that a machine that has other things to do slows all of them alike: the
+/// median over turns of the median frame of a turn.
+fn contest<const N: usize>(mut frames: [&mut dyn FnMut(usize); N]) -> [f64; N] {
+    const FRAMES: usize = 7;
+    let (start, mut turns) = (Instant::now(), [const { Vec::new() }; N]);
+    while turns[0].len() < 7 || start.elapsed() < Duration::from_millis(500) * N as u32 {
+        for (frame, turns) in frames.iter_mut().zip(&mut turns) {
+            // The caches of the one before are not those of this one.
+            frame(0);
+            let mut times = [0.0; FRAMES];
+            for (i, time) in times.iter_mut().enumerate() {
+                let begin = Instant::now();
+                frame(i + 1);
+                *time = begin.elapsed().as_secs_f64();
+            }
+            times.sort_by(f64::total_cmp);
+            turns.push(times[FRAMES / 2]);
+        }
     }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+    turns.map(|mut turns| {
+        turns.sort_by(f64::total_cmp);
+        turns[turns.len() / 2]
+    })
 }
 
 /// The rows of a table, each with its own weights, as one would write them down first.
@@ -137,16 +154,18 @@ fn two_threads_at_best() -> f64 {
         }
         x.iter().sum()
     }
-    let alone = median(|_| {
-        black_box(work());
-    });
-    let both = median(|_| {
-        std::thread::scope(|scope| {
-            let other = scope.spawn(|| black_box(work()));
+    let [alone, both] = contest([
+        &mut |_| {
             black_box(work());
-            black_box(other.join().expect("it only adds"));
-        })
-    });
+        },
+        &mut |_| {
+            std::thread::scope(|scope| {
+                let other = scope.spawn(|| black_box(work()));
+                black_box(work());
+                black_box(other.join().expect("it only adds"));
+            });
+        },
+    ]);
     2.0 * alone / both
 }
 
@@ -159,49 +178,66 @@ fn case(name: &str, mesh: &DedgeMesh, control: &[Vec3], options: &PlanOptions) {
         (0..4).map(|k| control.iter().map(|&p| p * (1.0 + 0.01 * k as f32)).collect()).collect();
     let n = plan.n_vertices();
     let n_normals = if options.normals == Normals::None { 0 } else { n };
-    let (mut positions, mut normals) = (vec![Vec3::ZERO; n], vec![Vec3::ZERO; n_normals]);
-    let mut evaluator = Evaluator::new(&plan);
-    let mut times = [1, 2].map(|threads| {
+    let lists = || (vec![Vec3::ZERO; n], vec![Vec3::ZERO; n_normals]);
+    let [mut one, mut two] = [1, 2].map(|threads| {
+        let mut evaluator = Evaluator::new(&plan);
         evaluator.set_threads(threads);
-        median(|i| evaluator.evaluate_into(&plan, &poses[i % 4], black_box(&mut positions), black_box(&mut normals)))
+        (evaluator, lists())
     });
+    let frame = |(evaluator, (positions, normals)): &mut (Evaluator, (Vec<Vec3>, Vec<Vec3>)), i: usize| {
+        evaluator.evaluate_into(&plan, &poses[i % 4], black_box(positions), black_box(normals));
+    };
     let mut plain = Plain::new(&plan);
-    let plain_time = median(|i| {
-        plain.frame(&poses[i % 4]);
-        black_box(&mut plain);
-    });
-    let (mut to_positions, mut to_normals) = (positions.clone(), normals.clone());
-    let copy = median(|_| {
-        to_positions.copy_from_slice(black_box(&positions));
-        to_normals.copy_from_slice(black_box(&normals));
-        black_box((&mut to_positions, &mut to_normals));
-    });
-    times[0] = times[0].max(f64::MIN_POSITIVE);
+    let (from, mut to) = (lists(), lists());
+    let [ours, ours_by_two, plain, copy] = contest([
+        &mut |i| frame(&mut one, i),
+        &mut |i| frame(&mut two, i),
+        &mut |i| {
+            plain.frame(&poses[i % 4]);
+            black_box(&mut plain);
+        },
+        &mut |_| {
+            to.0.copy_from_slice(black_box(&from.0));
+            to.1.copy_from_slice(black_box(&from.1));
+            black_box(&mut to);
+        },
+    ]);
     let mut batch = String::from("|");
     if n < 500_000 {
-        evaluator.set_threads(1);
         let many: Vec<Vec3> = (0..HEADS).flat_map(|head| poses[head % 4].clone()).collect();
-        let (mut positions, mut normals) = (vec![Vec3::ZERO; HEADS * n], vec![Vec3::ZERO; HEADS * n_normals]);
-        let together = median(|_| evaluator.evaluate_batch(&plan, &many, &mut positions, &mut normals)) / HEADS as f64;
-        let one_by_one = median(|_| {
-            for head in 0..HEADS {
-                let normals = &mut normals[head * n_normals..(head + 1) * n_normals];
-                evaluator.evaluate_into(&plan, &poses[head % 4], &mut positions[head * n..(head + 1) * n], normals);
-            }
-        }) / HEADS as f64;
-        batch = format!("{:.2} | {:.2}", plain_time / together, one_by_one / together);
+        let big = || (vec![Vec3::ZERO; HEADS * n], vec![Vec3::ZERO; HEADS * n_normals]);
+        let ((mut all, mut all_normals), (mut each, mut each_normals)) = (big(), big());
+        let (mut first, mut second) = (Evaluator::new(&plan), Evaluator::new(&plan));
+        let [together, one_by_one] =
+            contest([&mut |_| first.evaluate_batch(&plan, &many, &mut all, &mut all_normals), &mut |_| {
+                for head in 0..HEADS {
+                    let normals = &mut each_normals[head * n_normals..(head + 1) * n_normals];
+                    second.evaluate_into(&plan, &poses[head % 4], &mut each[head * n..(head + 1) * n], normals);
+                }
+            }]);
+        batch = format!("{:.2} | {:.2}", plain * HEADS as f64 / together, one_by_one / together);
     }
-    // Tables and rows by patch are read, positions and normals written.
+    let saved = plan.to_bytes();
+    let [load, copy_of_saved] = contest([
+        &mut |_| {
+            black_box(Plan::from_bytes(black_box(&saved), None).expect("as saved"));
+        },
+        &mut |_| {
+            black_box(black_box(&saved).clone());
+        },
+    ]);
+    // Tables or rows by patch are read, positions and normals written.
     let tables =
         if plan.n_patch_bytes() > 0 { plan.n_patch_bytes() } else { plan.n_table_bytes() + plan.n_ring_bytes() };
     println!(
-        "| {name} | {n} | {:.1} | {:.2} | {:.2} | {:.1} | {:.2} | {batch} | {:.1} | {} | {} |",
-        times[0] * 1e6,
-        times[0] * 1e9 / n as f64,
-        plain_time / times[0],
-        times[0] / copy,
-        times[0] / times[1],
+        "| {name} | {n} | {:.1} | {:.2} | {:.2} | {:.1} | {:.2} | {batch} | {:.1} | {:.1} | {} | {} |",
+        ours * 1e6,
+        ours * 1e9 / n as f64,
+        plain / ours,
+        ours / copy,
+        ours / ours_by_two,
         build * 1e3,
+        load / copy_of_saved,
         tables / 1000,
         12 * (n + n_normals) / 1000,
     );
@@ -214,9 +250,9 @@ fn main() {
     println!("two threads at best: {:.2}", two_threads_at_best());
     println!(
         "| plan | vertices | us | ns a vertex | plain / ours | ours / copy | two threads | plain / batch | one by one / batch \
-         | build ms | kB read | kB written |"
+         | build ms | load / copy | kB read | kB written |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     let with =
         |scheme, levels, positions, normals| PlanOptions { positions, normals, ..PlanOptions::new(scheme, levels) };
     use {Normals as N, Positions as P};

@@ -268,7 +268,8 @@ impl Reader<'_> {
             to_little_endian(&mut bytes, element_size::<T>());
             bytemuck::pod_collect_to_vec(&bytes)
         } else {
-            bytemuck::pod_collect_to_vec(bytes)
+            // Where it lies in memory as numbers do, nothing has to be cleared before it is copied.
+            bytemuck::try_cast_slice(bytes).map_or_else(|_| bytemuck::pod_collect_to_vec(bytes), <[T]>::to_vec)
         };
         let padding = n_bytes.next_multiple_of(8) - n_bytes;
         self.take(padding)?;
