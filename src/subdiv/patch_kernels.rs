@@ -446,3 +446,51 @@ fn settle(out: &mut Block, lanes: std::ops::Range<usize>) {
         places.into_iter().zip(unit.to_array()).for_each(|(place, value)| out.0[place] = value);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Block, Class, PatchBuffers, Plain, refine, refine_with};
+    use crate::mesh::shapes::torus;
+    use crate::subdiv::scheme::{Normals, PlanOptions, Positions, Scheme};
+    use crate::subdiv::{Plan, Tags};
+    use glam::Vec3;
+
+    type Refine = fn(&Class, &[u32], &[Vec3], Positions, bool, &mut PatchBuffers) -> bool;
+
+    fn bits(blocks: &[Block]) -> Vec<u32> {
+        blocks.iter().flat_map(|block| block.0).map(f32::to_bits).collect()
+    }
+
+    #[test]
+    fn wide_registers_have_other_bits_than_plain_arithmetic() {
+        let shape = torus(12, 9);
+        let mesh = shape.mesh().expect("in the cabinet");
+        for (positions, normals) in
+            [(Positions::Limit, Normals::Limit), (Positions::Level, Normals::Faces), (Positions::Level, Normals::Limit)]
+        {
+            let options = PlanOptions { positions, normals, ..PlanOptions::new(Scheme::Loop, 3) };
+            let plan = Plan::build_with(&mesh, &Tags::default(), &options).expect("small");
+            let patches = plan.patches.as_ref().expect("one class");
+            // Some triangles without area, whose normals are settled one by one.
+            let control: Vec<Vec3> = shape.positions.iter().map(|p| if p.x > 0.0 { *p } else { Vec3::ZERO }).collect();
+            for group in &patches.groups {
+                let class = &patches.classes[group.class as usize];
+                let sources = patches.sources_of(*group);
+                let run = |with: Refine| {
+                    let mut buffers = PatchBuffers::default();
+                    buffers.fit(patches);
+                    let from_limit = with(class, sources, &control, positions, true, &mut buffers);
+                    let last = bits(&buffers.coarse[..class.n_rows]);
+                    (from_limit, last, bits(&buffers.positions), bits(&buffers.normals))
+                };
+                let plain = run(refine_with::<Plain>);
+                assert!(plain.3.iter().all(|&x| f32::from_bits(x).is_finite()));
+                assert!(run(refine) == plain, "what this processor takes, {normals:?}");
+                #[cfg(target_arch = "x86_64")]
+                if is_x86_feature_detected!("avx") {
+                    assert!(run(refine_with::<crate::subdiv::register::Avx>) == plain, "AVX, {normals:?}");
+                }
+            }
+        }
+    }
+}
