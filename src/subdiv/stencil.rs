@@ -278,6 +278,11 @@ impl<W: Weight> StencilBuilder<W> {
 }
 
 /// Whether all numbers are below a bound: branchless, so that it costs no more than reading them.
+#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+sse4.1"))]
 pub(super) fn all_below(numbers: &[u32], bound: usize) -> bool {
-    numbers.is_empty() || (numbers.iter().fold(0, |largest, &n| n.max(largest)) as usize) < bound
+    let mut largest = 0;
+    for &n in numbers {
+        largest = if n > largest { n } else { largest };
+    }
+    numbers.is_empty() || (largest as usize) < bound
 }
