@@ -92,15 +92,35 @@ impl<W: Weight> LimitTable<W> {
             && weights[2..].iter().all(|w| w[0] == weights[1][0])
     }
 
+    /// No rows yet.
+    pub(super) fn with_capacity(n_entries: usize) -> LimitTable<W> {
+        let sources = Vec::with_capacity(n_entries);
+        LimitTable { n_rows: 0, sources, weights: Vec::new(), runs: Vec::new() }
+    }
+
+    /// Adds a row, equally many sources and weights. Whoever adds sees to it that sources exist.
+    pub(super) fn push(&mut self, sources: impl Iterator<Item = u32>, weights: &[[W; 3]]) {
+        let len = weights.len();
+        let shares = self.runs.last().is_some_and(|run| {
+            run.row_len as usize == len && self.weights[run.first_weight as usize..][..len] == *weights
+        });
+        if !shares {
+            self.runs.push(Run {
+                first_row: self.n_rows as u32,
+                first_entry: self.sources.len() as u32,
+                row_len: len as u32,
+                first_weight: self.weights.len() as u32,
+            });
+            self.weights.extend_from_slice(weights);
+        }
+        self.sources.extend(sources);
+        self.n_rows += 1;
+    }
+
     /// The masks of all vertices of a level. `steps` are the steps that led to it.
     pub(super) fn build(level: &Level, options: &PlanOptions, steps: u32) -> LimitTable<W> {
         let n_rows = level.mesh.n_vertices();
-        let table = LimitTable {
-            n_rows: 0,
-            sources: Vec::with_capacity(n_rows + level.mesh.n_dedges()),
-            weights: Vec::new(),
-            runs: Vec::new(),
-        };
+        let table = LimitTable::with_capacity(n_rows + level.mesh.n_dedges());
         let mut rows = Rows {
             level,
             options,
@@ -136,25 +156,10 @@ struct Rows<'a, W> {
 
 impl<W: Weight> Rows<'_, W> {
     fn write(&mut self) {
-        let table = &mut self.table;
         self.row.retain(|(_, weights)| *weights != [0.0; 3]);
         self.rounded.clear();
         self.rounded.extend(self.row.iter().map(|(_, weights)| weights.map(W::from_f64)));
-        let len = self.row.len();
-        let shares = table.runs.last().is_some_and(|run| {
-            run.row_len as usize == len && table.weights[run.first_weight as usize..][..len] == self.rounded[..]
-        });
-        if !shares {
-            table.runs.push(Run {
-                first_row: table.n_rows as u32,
-                first_entry: table.sources.len() as u32,
-                row_len: len as u32,
-                first_weight: table.weights.len() as u32,
-            });
-            table.weights.extend_from_slice(&self.rounded);
-        }
-        table.sources.extend(self.row.iter().map(|(source, _)| source));
-        table.n_rows += 1;
+        self.table.push(self.row.iter().map(|&(source, _)| source), &self.rounded);
     }
 
     fn vertex(&mut self, vertex: VertexId) {

@@ -9,7 +9,7 @@ use super::normals::{HUGE, Rings, TINY, unit_of};
 use super::register::{Plain, Register};
 use super::runs::pieces;
 use super::scheme::Positions;
-use super::shared_patches::{Class, Delivery, Group, LANES, SharedPatches, share_of};
+use super::shared_patches::{Class, Delivery, LANES, SharedPatches};
 use super::stencil::StencilTable;
 
 /// The same vertex of sixteen patches: all x, all y, all z.
@@ -92,9 +92,9 @@ impl SharedPatches {
         match buffers {
             [first, ..] if !parallel => share(first, 0..self.groups.len()),
             _ => {
-                let n = buffers.len();
-                buffers.par_iter_mut().enumerate().for_each(|(worker, buffers)| {
-                    share(buffers, share_of(self.groups.len(), worker, n));
+                let (n, n_groups) = (buffers.len(), self.groups.len());
+                buffers.par_iter_mut().enumerate().for_each(|(i, buffers)| {
+                    share(buffers, i * n_groups / n..(i + 1) * n_groups / n);
                 });
             }
         }
@@ -108,11 +108,12 @@ impl SharedPatches {
         out: &[Places<'_>; 2],
         buffers: &mut PatchBuffers,
     ) {
-        let group: Group = self.groups[number];
+        let group = self.groups[number];
         let class = &self.classes[group.class as usize];
         let wants_normals = out[1].n > 0;
         let deliveries = self.deliveries_of(number);
-        let from_limit = refine(class, self.sources_of(group), control, wanted, wants_normals, buffers);
+        let work = Work { class, sources: self.sources_of(group), control, wanted, wants_normals };
+        let from_limit = refine(work, buffers);
         let positions = if from_limit { &buffers.positions } else { &buffers.coarse };
         let positions: &[f32] = bytemuck::cast_slice(&positions[..class.n_rows]);
         let normals: &[f32] = bytemuck::cast_slice(&buffers.normals[..class.n_rows]);
@@ -159,15 +160,19 @@ impl<'a> Places<'a> {
     }
 }
 
-/// From control positions to those of the patch, in `coarse` or, if it says so, in `positions`; and to its normals.
-fn refine(
-    class: &Class,
-    sources: &[u32],
-    control: &[Vec3],
+/// What there is to do for a group.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    class: &'a Class,
+    /// Control vertices of the class, each for all lanes.
+    sources: &'a [u32],
+    control: &'a [Vec3],
     wanted: Positions,
     wants_normals: bool,
-    buffers: &mut PatchBuffers,
-) -> bool {
+}
+
+/// From control positions to those of the patch, in `coarse` or, if it says so, in `positions`; and to its normals.
+fn refine(work: Work, buffers: &mut PatchBuffers) -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         use super::register::{Avx, Avx512};
@@ -175,39 +180,26 @@ fn refine(
         macro_rules! with {
             ($register:ident, $feature:tt) => {{
                 #[target_feature(enable = $feature)]
-                fn on_this_processor(
-                    class: &Class,
-                    sources: &[u32],
-                    control: &[Vec3],
-                    wanted: Positions,
-                    wants_normals: bool,
-                    buffers: &mut PatchBuffers,
-                ) -> bool {
-                    refine_with::<$register>(class, sources, control, wanted, wants_normals, buffers)
+                fn on_this_processor(work: Work, buffers: &mut PatchBuffers) -> bool {
+                    refine_with::<$register>(work, buffers)
                 }
 
                 if is_x86_feature_detected!($feature) {
                     #[allow(unsafe_code)]
                     // SAFETY: the processor has it.
-                    return unsafe { on_this_processor(class, sources, control, wanted, wants_normals, buffers) };
+                    return unsafe { on_this_processor(work, buffers) };
                 }
             }};
         }
         with!(Avx512, "avx512f");
         with!(Avx, "avx");
     }
-    refine_with::<Plain>(class, sources, control, wanted, wants_normals, buffers)
+    refine_with::<Plain>(work, buffers)
 }
 
 #[inline(always)]
-fn refine_with<R: Register>(
-    class: &Class,
-    sources: &[u32],
-    control: &[Vec3],
-    wanted: Positions,
-    wants_normals: bool,
-    buffers: &mut PatchBuffers,
-) -> bool {
+fn refine_with<R: Register>(work: Work, buffers: &mut PatchBuffers) -> bool {
+    let Work { class, sources, control, wanted, wants_normals } = work;
     for (block, sources) in buffers.coarse.iter_mut().zip(sources.chunks_exact(LANES)) {
         for (lane, &source) in sources.iter().enumerate() {
             let p = fetch(control, source);
@@ -449,13 +441,13 @@ fn settle(out: &mut Block, lanes: std::ops::Range<usize>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Block, Class, PatchBuffers, Plain, refine, refine_with};
+    use super::{Block, PatchBuffers, Plain, Work, refine, refine_with};
     use crate::mesh::shapes::torus;
     use crate::subdiv::scheme::{Normals, PlanOptions, Positions, Scheme};
     use crate::subdiv::{Plan, Tags};
     use glam::Vec3;
 
-    type Refine = fn(&Class, &[u32], &[Vec3], Positions, bool, &mut PatchBuffers) -> bool;
+    type Refine = fn(Work, &mut PatchBuffers) -> bool;
 
     fn bits(blocks: &[Block]) -> Vec<u32> {
         blocks.iter().flat_map(|block| block.0).map(f32::to_bits).collect()
@@ -479,7 +471,9 @@ mod tests {
                 let run = |with: Refine| {
                     let mut buffers = PatchBuffers::default();
                     buffers.fit(patches);
-                    let from_limit = with(class, sources, &control, positions, true, &mut buffers);
+                    let (control, wanted) = (&control[..], positions);
+                    let work = Work { class, sources, control, wanted, wants_normals: true };
+                    let from_limit = with(work, &mut buffers);
                     let last = bits(&buffers.coarse[..class.n_rows]);
                     (from_limit, last, bits(&buffers.positions), bits(&buffers.normals))
                 };

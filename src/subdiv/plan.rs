@@ -125,8 +125,12 @@ impl Plan {
         }
         let prepared = prepare::triangles(control, tags, options)?;
         let fingerprint = fingerprint(control.n_vertices(), &[], control.indices(), tags, options);
+        let sharpness = match &prepared.level {
+            Last::Triangles(level) => level.sharpness.clone(),
+            Last::Polygons(_) => unreachable!("triangles stay triangles"),
+        };
         let mut plan = Plan::finish(prepared, options, control.n_vertices(), fingerprint)?;
-        plan.patches = SharedPatches::build(control, tags, &plan);
+        plan.patches = SharedPatches::build(control, tags, &sharpness, &plan);
         Ok(plan)
     }
 

@@ -9,15 +9,14 @@
 //! That one ring is enough is a property of Loop: a corner's neighbours matter by their place, not by their own rings
 //! (Loop 1987: a patch depends on the vertices of the triangles that touch it). √3 reaches farther.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::mesh::{DedgeMesh, FaceId, VertexId};
+use crate::mesh::{DedgeId, DedgeMesh, FaceId, VertexId};
 
+use super::level::Sharpness;
 use super::limit::LimitTable;
 use super::normals::Rings;
 use super::plan::Plan;
-use super::runs::Run;
 use super::scheme::{Normals, Positions, Scheme, Split};
 use super::stencil::{StencilBuilder, StencilTable};
 use super::tags::Tags;
@@ -89,8 +88,9 @@ pub(super) struct SharedPatches {
 }
 
 impl SharedPatches {
-    /// The patches of a finished plan, given what it was built from; none where sharing gains nothing.
-    pub(super) fn build(control: &DedgeMesh, tags: &Tags, plan: &Plan) -> Option<SharedPatches> {
+    /// The patches of a finished plan, given what it was built from and the sharpness of its level 0; none where sharing gains
+    /// nothing.
+    pub(super) fn build(control: &DedgeMesh, tags: &Tags, sharpness: &Sharpness, plan: &Plan) -> Option<SharedPatches> {
         let options = plan.options();
         let levels = options.levels;
         let pushes = options.positions == Positions::Limit;
@@ -106,7 +106,7 @@ impl SharedPatches {
         {
             return None;
         }
-        let kinds = Kinds::sort(control, tags);
+        let kinds = Kinds::sort(control, sharpness);
         let n_groups: usize = kinds.faces.iter().map(|faces| faces.len().div_ceil(LANES)).sum();
         if (n_groups * LANES) as f64 > MAX_PLACES * control.n_faces() as f64 {
             return None;
@@ -189,8 +189,9 @@ struct Kinds {
 }
 
 impl Kinds {
-    fn sort(control: &DedgeMesh, tags: &Tags) -> Kinds {
-        let mut surroundings = Surroundings::new(control, tags);
+    fn sort(control: &DedgeMesh, sharpness: &Sharpness) -> Kinds {
+        let label = vec![NONE; control.n_vertices()];
+        let mut surroundings = Surroundings { mesh: control, sharpness, label };
         let mut kinds = Kinds { faces: Vec::new(), around: Vec::new() };
         let mut numbers: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
         for face in control.faces() {
@@ -214,38 +215,12 @@ impl Kinds {
 /// Writes down what lies around the corners of a triangle.
 struct Surroundings<'a> {
     mesh: &'a DedgeMesh,
-    /// Bits of the sharpness of each directed edge and of each vertex; empty without such tags.
-    edges: Vec<u32>,
-    vertices: Vec<u32>,
+    sharpness: &'a Sharpness,
     /// Local numbers; none between calls.
     label: Vec<u32>,
 }
 
-impl<'a> Surroundings<'a> {
-    fn new(mesh: &'a DedgeMesh, tags: &Tags) -> Surroundings<'a> {
-        let label = vec![NONE; mesh.n_vertices()];
-        let mut new = Surroundings { mesh, edges: Vec::new(), vertices: Vec::new(), label };
-        if tags.creases.is_empty() && tags.corners.is_empty() {
-            return new;
-        }
-        new.edges = vec![0; mesh.n_dedges()];
-        new.vertices = vec![0; mesh.n_vertices()];
-        for &(vertex, sharpness) in &tags.corners {
-            new.vertices[vertex.index()] = sharpness.to_bits();
-        }
-        for &(a, b, sharpness) in &tags.creases {
-            for (from, to) in [(a, b), (b, a)] {
-                for dedge in mesh.outgoing_dedges(from).filter(|&d| mesh.target(d) == to) {
-                    new.edges[dedge.index()] = sharpness.to_bits();
-                    if let Some(twin) = mesh.twin(dedge) {
-                        new.edges[twin.index()] = sharpness.to_bits();
-                    }
-                }
-            }
-        }
-        new
-    }
-
+impl Surroundings<'_> {
     /// Equal for triangles with the same rows; and the control vertices in the order in which they are met.
     fn key(&mut self, face: FaceId, turn: u8) -> (Vec<u32>, Vec<u32>) {
         let mesh = self.mesh;
@@ -256,15 +231,15 @@ impl<'a> Surroundings<'a> {
         }
         for start in sides {
             let corner = mesh.origin(start);
-            if let Some(sharpness) = self.vertices.get(corner.index()) {
-                key.push(*sharpness);
+            if !self.sharpness.is_empty() {
+                key.push(self.sharpness.vertex(corner).to_bits());
             }
             let opening = key.len();
             key.push(0);
             // Counter-clockwise, and at a boundary what lies the other way.
             let mut dedge = start;
             let is_closed = loop {
-                self.spoke(dedge.index(), mesh.target(dedge), &mut key, &mut around);
+                self.spoke(dedge, mesh.target(dedge), &mut key, &mut around);
                 match mesh.twin(dedge.prev()) {
                     Some(onward) if onward == start => break true,
                     Some(onward) => dedge = onward,
@@ -272,12 +247,12 @@ impl<'a> Surroundings<'a> {
                 }
             };
             if !is_closed {
-                self.spoke(dedge.prev().index(), mesh.origin(dedge.prev()), &mut key, &mut around);
+                self.spoke(dedge.prev(), mesh.origin(dedge.prev()), &mut key, &mut around);
                 key.push(NONE);
                 dedge = start;
                 while let Some(twin) = mesh.twin(dedge) {
                     dedge = twin.next();
-                    self.spoke(dedge.index(), mesh.target(dedge), &mut key, &mut around);
+                    self.spoke(dedge, mesh.target(dedge), &mut key, &mut around);
                 }
             }
             key[opening] = 2 * (key.len() - opening) as u32 + u32::from(is_closed);
@@ -286,11 +261,11 @@ impl<'a> Surroundings<'a> {
         (key, around)
     }
 
-    fn spoke(&mut self, dedge: usize, end: VertexId, key: &mut Vec<u32>, around: &mut Vec<u32>) {
+    fn spoke(&mut self, dedge: DedgeId, end: VertexId, key: &mut Vec<u32>, around: &mut Vec<u32>) {
         let label = self.meet(end, around);
         key.push(label);
-        if let Some(sharpness) = self.edges.get(dedge) {
-            key.push(*sharpness);
+        if !self.sharpness.is_empty() {
+            key.push(self.sharpness.dedge(dedge).to_bits());
         }
     }
 
@@ -345,7 +320,7 @@ impl Builder<'_> {
         let n_children = 1 << (2 * levels);
         let indices = &plan.indices()[..3 * n_children];
         let corners = [0, 1, 2].map(|turn| {
-            let mut seen = std::collections::BTreeSet::new();
+            let mut seen = BTreeSet::new();
             child_order(Split::Quarters, levels, turn)
                 .into_iter()
                 .flat_map(|(child, turn)| (0..3).map(move |c| 3 * child + (usize::from(turn) + c) % 3))
@@ -441,7 +416,7 @@ impl Builder<'_> {
         // The patch first, then what its limit or its normals need; rows of one kind together, so that runs are long.
         let mut own = patch.clone();
         sort_by_row(&mut own, last);
-        let mut others = self.others(&own, |v| rows_of(v).iter().chain(ring_of(v)).copied());
+        let mut others = self.needed(&own, &own, |v| rows_of(v).iter().chain(ring_of(v)));
         sort_by_row(&mut others, last);
         let mut level: Vec<u32> = own.iter().copied().chain(others).collect();
 
@@ -459,15 +434,7 @@ impl Builder<'_> {
         for (i, table) in tables.iter().enumerate() {
             let coarser = match tables.get(i + 1) {
                 Some(coarser) => {
-                    let mut vertices = Vec::new();
-                    for &vertex in &level {
-                        for &source in table.row(vertex as usize).0 {
-                            if std::mem::replace(&mut self.local[source as usize], 0) == NONE {
-                                vertices.push(source);
-                            }
-                        }
-                    }
-                    self.forget(&vertices);
+                    let mut vertices = self.needed(&level, &[], |v| table.row(v as usize).0.iter());
                     sort_by_row(&mut vertices, coarser);
                     vertices
                 }
@@ -483,20 +450,21 @@ impl Builder<'_> {
         places
     }
 
-    /// What is needed beyond some vertices, each once, in the order in which it is met.
-    fn others<I: Iterator<Item = u32>>(&mut self, own: &[u32], needs: impl Fn(u32) -> I) -> Vec<u32> {
-        self.number(own);
-        let mut others = Vec::new();
-        for &vertex in own {
-            for needed in needs(vertex) {
-                if std::mem::replace(&mut self.local[needed as usize], 0) == NONE {
-                    others.push(needed);
-                }
+    /// What some vertices need beyond those that are known, each once, in the order in which it is met.
+    fn needed<'v, I>(&mut self, vertices: &[u32], known: &[u32], needs: impl Fn(u32) -> I) -> Vec<u32>
+    where
+        I: Iterator<Item = &'v u32>,
+    {
+        self.number(known);
+        let mut met = Vec::new();
+        for &needed in vertices.iter().flat_map(|&vertex| needs(vertex)) {
+            if std::mem::replace(&mut self.local[needed as usize], 0) == NONE {
+                met.push(needed);
             }
         }
-        self.forget(own);
-        self.forget(&others);
-        others
+        self.forget(known);
+        self.forget(&met);
+        met
     }
 
     fn number(&mut self, vertices: &[u32]) {
@@ -526,23 +494,10 @@ impl Builder<'_> {
     }
 
     fn local_limit(&self, limit: &LimitTable, rows: &[u32]) -> LimitTable {
-        let mut local = LimitTable { n_rows: rows.len(), sources: Vec::new(), weights: Vec::new(), runs: Vec::new() };
-        for (row, &vertex) in rows.iter().enumerate() {
+        let mut local = LimitTable::with_capacity(7 * rows.len());
+        for &vertex in rows {
             let (sources, weights) = limit.row(vertex as usize);
-            let shares = local.runs.last().is_some_and(|run: &Run| {
-                let first = run.first_weight as usize;
-                run.row_len as usize == weights.len() && local.weights[first..][..weights.len()] == *weights
-            });
-            if !shares {
-                local.runs.push(Run {
-                    first_row: row as u32,
-                    first_entry: local.sources.len() as u32,
-                    row_len: weights.len() as u32,
-                    first_weight: local.weights.len() as u32,
-                });
-                local.weights.extend(weights);
-            }
-            local.sources.extend(sources.iter().map(|&source| self.local_of(source)));
+            local.push(sources.iter().map(|&source| self.local_of(source)), weights);
         }
         local
     }
@@ -559,9 +514,4 @@ fn sort_by_row(vertices: &mut [u32], table: &StencilTable) {
         let (_, weights) = table.row(vertex as usize);
         (weights.len(), weights.iter().map(|w| w.to_bits()).collect::<Vec<_>>())
     });
-}
-
-/// Equal parts of all groups, one for each of `n` workers.
-pub(super) fn share_of(n_groups: usize, worker: usize, n: usize) -> Range<usize> {
-    worker * n_groups / n..(worker + 1) * n_groups / n
 }
