@@ -1,5 +1,5 @@
-// A plan on the graphics card: one row of a stencil table, or one normal, for each invocation. The sums are those of
-// `src/subdiv/kernels.rs` and `normals.rs`, in table order; a card may fuse or reorder within them.
+// A plan on the graphics card: one row of a stencil table, one normal or one limit for each invocation. The sums are those
+// of `src/subdiv/kernels.rs` and `normals.rs`, in table order; a card may fuse or reorder within them.
 
 struct Step {
     // Rows of this step, and how many invocations wide the dispatch is.
@@ -24,6 +24,16 @@ fn put(i: u32, v: vec3<f32>) {
     fine[3u * i] = v.x;
     fine[3u * i + 1u] = v.y;
     fine[3u * i + 2u] = v.z;
+}
+
+// Scaled first: the square of a small area is no number here.
+fn put_unit(i: u32, sum: vec3<f32>) {
+    let largest = max(abs(sum.x), max(abs(sum.y), abs(sum.z)));
+    if largest > 0.0 {
+        put(i, normalize(sum / largest));
+    } else {
+        put(i, vec3<f32>(0.0, 1.0, 0.0));
+    }
 }
 
 @compute @workgroup_size(64)
@@ -64,11 +74,33 @@ fn normals(@builtin(global_invocation_id) id: vec3<u32>) {
     if i + 1u < n {
         sum += cross(value(sources[first + i]) - corner, value(sources[first + i + 1u]) - corner);
     }
-    // Scaled first: the square of a small area is no number here.
-    let largest = max(abs(sum.x), max(abs(sum.y), abs(sum.z)));
-    if largest > 0.0 {
-        put(row, normalize(sum / largest));
-    } else {
-        put(row, vec3<f32>(0.0, 1.0, 0.0));
+    put_unit(row, sum);
+}
+
+// Limits have three weights for each source: of the position and of two tangents.
+fn total(row: u32, k: u32) -> vec3<f32> {
+    let first = rows[row].x;
+    let n = rows[row + 1u].x - first;
+    let first_weight = rows[row].y;
+    var sum = vec3<f32>(0.0);
+    for (var i = 0u; i < n; i++) {
+        sum += value(sources[first + i]) * weights[3u * (first_weight + i) + k];
+    }
+    return sum;
+}
+
+@compute @workgroup_size(64)
+fn limit_positions(@builtin(global_invocation_id) id: vec3<u32>) {
+    let row = id.x + id.y * step.width;
+    if row < step.n_rows {
+        put(row, total(row, 0u));
+    }
+}
+
+@compute @workgroup_size(64)
+fn limit_normals(@builtin(global_invocation_id) id: vec3<u32>) {
+    let row = id.x + id.y * step.width;
+    if row < step.n_rows {
+        put_unit(row, cross(total(row, 1u), total(row, 2u)));
     }
 }

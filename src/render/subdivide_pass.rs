@@ -14,11 +14,36 @@ const WORKGROUP: u32 = 64;
 /// Workgroups of a dispatch in one direction; every device allows more.
 const MOST_WORKGROUPS: u32 = 32_768;
 
-/// Compute pipelines for stencils and for normals.
+/// What an invocation computes from its row: an entry point of the shader each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kernel {
+    /// A value from a row of a stencil table.
+    Stencils,
+    /// A normal from the outline of the faces around a vertex.
+    Normals,
+    /// A limit position from a row with three weights a source, of which it takes the first.
+    LimitPositions,
+    /// A limit normal, from the other two.
+    LimitNormals,
+}
+
+impl Kernel {
+    const ALL: [Kernel; 4] = [Kernel::Stencils, Kernel::Normals, Kernel::LimitPositions, Kernel::LimitNormals];
+
+    fn entry_point(self) -> &'static str {
+        match self {
+            Kernel::Stencils => "stencils",
+            Kernel::Normals => "normals",
+            Kernel::LimitPositions => "limit_positions",
+            Kernel::LimitNormals => "limit_normals",
+        }
+    }
+}
+
+/// Compute pipelines, one for each kernel.
 #[derive(Debug)]
 pub struct SubdividePass {
-    stencils: wgpu::ComputePipeline,
-    normals: wgpu::ComputePipeline,
+    pipelines: [wgpu::ComputePipeline; 4],
     layout: wgpu::BindGroupLayout,
 }
 
@@ -27,12 +52,13 @@ pub struct SubdividePass {
 pub struct PlanBuffers {
     control: wgpu::Buffer,
     n_control: usize,
-    steps: Vec<Dispatch>,
-    normals: Option<Dispatch>,
+    /// In this order.
+    dispatches: Vec<Dispatch>,
 }
 
 #[derive(Debug)]
 struct Dispatch {
+    kernel: Kernel,
     bindings: wgpu::BindGroup,
     workgroups: (u32, u32),
 }
@@ -78,19 +104,18 @@ impl SubdividePass {
             immediate_size: 0,
         });
         let module = sources.compile(device, ShaderFile::Subdivide)?;
-        let pipeline = |entry_point| {
+        let pipeline = |kernel: Kernel| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry_point),
+                label: Some(kernel.entry_point()),
                 layout: Some(&pipeline_layout),
                 module: &module,
-                entry_point: Some(entry_point),
+                entry_point: Some(kernel.entry_point()),
                 compilation_options: Default::default(),
                 cache: None,
             })
         };
-        let (stencils, normals) =
-            build_checked(device, ShaderFile::Subdivide, || (pipeline("stencils"), pipeline("normals")))?;
-        Ok(Self { stencils, normals, layout })
+        let pipelines = build_checked(device, ShaderFile::Subdivide, || Kernel::ALL.map(pipeline))?;
+        Ok(Self { pipelines, layout })
     }
 
     /// The same, or nothing on a device without compute shaders.
@@ -100,19 +125,19 @@ impl SubdividePass {
         able.then(|| Self::new(device, sources)).transpose()
     }
 
-    /// Whether a plan can be evaluated here: positions of the last level, normals from faces or none, at least one step,
-    /// and tables that fit the device.
+    /// Whether a plan can be evaluated here: whether its tables fit the device.
     pub fn takes(device: &wgpu::Device, plan: &Plan) -> bool {
         let limits = device.limits();
-        let largest =
-            plan.tables().iter().map(|t| 4 * t.n_entries() as u64).chain([12 * plan.n_vertices() as u64]).max();
-        let ring_bytes = plan.n_ring_bytes() as u64;
+        let limit_entries = plan.limit().map_or(0, |table| table.sources().len().max(3 * table.weights().len()));
+        let largest = plan
+            .tables()
+            .iter()
+            .map(|t| t.n_entries().max(2 * t.n_rows() + 2))
+            .chain([limit_entries, 3 * plan.n_vertices(), plan.n_ring_bytes() / 4])
+            .max();
         limits.max_compute_workgroup_size_x >= WORKGROUP
             && limits.max_storage_buffers_per_shader_stage >= 5
-            && largest.unwrap_or(0).max(ring_bytes) <= limits.max_storage_buffer_binding_size
-            && plan.options().positions == Positions::Level
-            && plan.options().normals != Normals::Limit
-            && !plan.tables().is_empty()
+            && 4 * largest.unwrap_or(0) as u64 <= limits.max_storage_buffer_binding_size
     }
 
     /// Uploads a plan that it [`takes`](Self::takes). `positions` and `normals` are storage buffers with room for the
@@ -126,27 +151,48 @@ impl SubdividePass {
         normals: &wgpu::Buffer,
     ) -> PlanBuffers {
         let storage = wgpu::BufferUsages::STORAGE;
+        let level = |n: usize| buffer(device, "level", 12 * n, storage);
         let control = buffer(device, "control", 12 * plan.n_control(), storage);
+        let mut dispatches = Vec::new();
+        let mut add = |kernel, table: Table<'_>, from: &wgpu::Buffer, to: &wgpu::Buffer| {
+            dispatches.push(self.dispatch(device, queue, kernel, table, from, to));
+        };
+        // The last level lies between where it is pushed to its limit.
+        let pushed = plan.limit().filter(|_| plan.options().positions == Positions::Limit);
+        let last = if pushed.is_some() { level(plan.n_vertices()) } else { positions.clone() };
         let mut coarse = control.clone();
-        let mut steps = Vec::new();
         for (i, table) in plan.tables().iter().enumerate() {
-            let is_last = i + 1 == plan.tables().len();
-            let fine = if is_last { positions.clone() } else { buffer(device, "level", 12 * table.n_rows(), storage) };
+            let fine = if i + 1 == plan.tables().len() { last.clone() } else { level(table.n_rows()) };
             let table = Table { rows: table.row_starts(), sources: table.sources(), weights: table.weights() };
-            steps.push(self.dispatch(device, queue, table, &coarse, &fine));
+            add(Kernel::Stencils, table, &coarse, &fine);
             coarse = fine;
         }
-        let normals = plan.outlines().map(|(rows, sources)| {
-            let table = Table { rows, sources, weights: &[0.0] };
-            self.dispatch(device, queue, table, positions, normals)
-        });
-        PlanBuffers { control, n_control: plan.n_control(), steps, normals }
+        if plan.tables().is_empty() {
+            let same: Vec<u32> = (0..plan.n_control() as u32).collect();
+            let rows = (0..=plan.n_control() as u32).map(|row| [row, 0]).collect();
+            add(Kernel::Stencils, Table { rows, sources: &same, weights: &[1.0] }, &control, &last);
+        }
+        let limit = plan.limit().map(|table| (table.row_starts(), table.sources(), table.weights().as_flattened()));
+        if let (Some((rows, sources, weights)), Some(_)) = (limit.clone(), pushed) {
+            add(Kernel::LimitPositions, Table { rows, sources, weights }, &last, positions);
+        }
+        match (plan.options().normals, limit, plan.outlines()) {
+            (Normals::Limit, Some((rows, sources, weights)), _) => {
+                add(Kernel::LimitNormals, Table { rows, sources, weights }, &last, normals);
+            }
+            (Normals::Faces, _, Some((rows, sources))) => {
+                add(Kernel::Normals, Table { rows, sources, weights: &[0.0] }, positions, normals);
+            }
+            _ => {}
+        }
+        PlanBuffers { control, n_control: plan.n_control(), dispatches }
     }
 
     fn dispatch(
         &self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
+        kernel: Kernel,
         table: Table<'_>,
         coarse: &wgpu::Buffer,
         fine: &wgpu::Buffer,
@@ -173,28 +219,18 @@ impl SubdividePass {
             layout: &self.layout,
             entries: &entries,
         });
-        Dispatch { bindings, workgroups: (x, y) }
+        Dispatch { kernel, bindings, workgroups: (x, y) }
     }
 
     /// Records the evaluation of the control positions that were [written](PlanBuffers::write_control) last.
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder, plan: &PlanBuffers) {
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("subdivide"), timestamp_writes: None });
-        pass.set_pipeline(&self.stencils);
-        for step in &plan.steps {
-            step.run(&mut pass);
+        for dispatch in &plan.dispatches {
+            pass.set_pipeline(&self.pipelines[dispatch.kernel as usize]);
+            pass.set_bind_group(0, &dispatch.bindings, &[]);
+            pass.dispatch_workgroups(dispatch.workgroups.0, dispatch.workgroups.1, 1);
         }
-        if let Some(normals) = &plan.normals {
-            pass.set_pipeline(&self.normals);
-            normals.run(&mut pass);
-        }
-    }
-}
-
-impl Dispatch {
-    fn run(&self, pass: &mut wgpu::ComputePass<'_>) {
-        pass.set_bind_group(0, &self.bindings, &[]);
-        pass.dispatch_workgroups(self.workgroups.0, self.workgroups.1, 1);
     }
 }
 

@@ -14,7 +14,7 @@ use super::mask::CurveMask;
 use super::neighbourhood::Neighbourhood;
 use super::rows::sqrt3::{beside_fading, third_of};
 use super::rule::Rule;
-use super::runs::Run;
+use super::runs::{Run, row_starts};
 use super::scheme::{BoundaryStep, PlanOptions, Scheme};
 use super::stencil::{Weight, all_below};
 use super::{loop_scheme, sqrt3};
@@ -59,6 +59,23 @@ impl<W: Weight> LimitTable<W> {
     /// Number of rows, and of sources: vertices of the level.
     pub fn n_rows(&self) -> usize {
         self.n_rows
+    }
+
+    /// Sources of all rows, one row after another.
+    pub fn sources(&self) -> &[u32] {
+        &self.sources
+    }
+
+    /// Weights of the position and of the two tangents, each list of them once for successive rows that share it: see
+    /// [`row_starts`](Self::row_starts).
+    pub fn weights(&self) -> &[[W; 3]] {
+        &self.weights
+    }
+
+    /// For each row where its [`sources`](Self::sources) and its [`weights`](Self::weights) start, and one entry more that
+    /// ends the last row.
+    pub fn row_starts(&self) -> Vec<[u32; 2]> {
+        row_starts(&self.runs, self.n_rows, self.sources.len())
     }
 
     /// Bytes of sources, weights and runs.

@@ -48,6 +48,17 @@ pub(super) fn pieces(runs: &[Run], n_rows: usize, rows: Range<usize>) -> impl It
         })
 }
 
+/// For each row its first entry and its first weight, and one place more that ends the last row.
+pub(super) fn row_starts(runs: &[Run], n_rows: usize, n_entries: usize) -> Vec<[u32; 2]> {
+    let mut starts = Vec::with_capacity(n_rows + 1);
+    for piece in pieces(runs, n_rows, 0..n_rows) {
+        let entries = piece.entries.step_by(piece.weights.len());
+        starts.extend(entries.map(|entry| [entry as u32, piece.weights.start as u32]));
+    }
+    starts.push([n_entries as u32, 0]);
+    starts
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Run, pieces};

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 use crate::mesh::{DedgeMesh, VertexId};
 
 use super::mask::{CurveMask, RingMask};
-use super::runs::{Run, pieces};
+use super::runs::{Run, pieces, row_starts};
 
 /// The type of a table's weights: `f32` for frames, `f64` for oracles.
 pub trait Weight: Copy + PartialEq + Send + Sync + std::fmt::Debug {
@@ -132,13 +132,7 @@ impl<W: Weight> StencilTable<W> {
     /// For each row where its [`sources`](Self::sources) and its [`weights`](Self::weights) start, and one entry more that
     /// ends the last row.
     pub fn row_starts(&self) -> Vec<[u32; 2]> {
-        let mut starts = Vec::with_capacity(self.n_rows + 1);
-        for piece in pieces(&self.runs, self.n_rows, 0..self.n_rows) {
-            let entries = piece.entries.step_by(piece.weights.len());
-            starts.extend(entries.map(|entry| [entry as u32, piece.weights.start as u32]));
-        }
-        starts.push([self.sources.len() as u32, 0]);
-        starts
+        row_starts(&self.runs, self.n_rows, self.sources.len())
     }
 
     /// Bytes of sources, weights and runs.
