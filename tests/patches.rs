@@ -177,7 +177,7 @@ fn a_damaged_patch_is_taken_for_one() {
     for place in (first..bytes.len()).step_by(61) {
         let mut damaged = bytes.clone();
         damaged[place] ^= 0x41;
-        let sum = xxhash_rust::xxh3::xxh3_64(&damaged[40..]);
+        let sum = twox_hash::XxHash3_64::oneshot(&damaged[40..]);
         damaged[32..40].copy_from_slice(&sum.to_le_bytes());
         match Plan::from_bytes(&damaged, None) {
             // Another weight, or another vertex that exists: a plan, if not a good one.

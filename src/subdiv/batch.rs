@@ -1,10 +1,9 @@
 //! Many heads with one plan: a litter of breeds, a sequence of poses.
 //!
-//! One after another, each while its levels are in the cache; several threads take a part of the heads each. (Eight heads
+//! One after another, each while its levels are in the cache; several threads each take the next head in turn. (Eight heads
 //! side by side, one in each lane, was slower by half: what they deliver then leaves the cache eight streams at a time.)
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::evaluate::{Evaluator, n_normals};
 use super::plan::Plan;
@@ -31,23 +30,15 @@ impl Evaluator {
             }
             return;
         }
-        let part = n_heads.div_ceil(threads);
         let mut normals: Vec<&mut [Vec3]> = match n_normals {
             0 => Vec::new(),
-            n_normals => normals.chunks_mut(part * n_normals).collect(),
+            n_normals => normals.chunks_mut(n_normals).collect(),
         };
-        normals.resize_with(threads, Default::default);
-        let (pool, litters) = self.threads_and_litters();
-        let parts = litters.par_iter_mut().zip(control.par_chunks(part * n_control));
-        let parts = parts.zip(positions.par_chunks_mut(part * n)).zip(normals.par_iter_mut());
-        let work = || {
-            parts.for_each(|(((evaluator, control), positions), normals)| {
-                evaluator.evaluate_batch(plan, control, positions, normals);
-            });
-        };
-        match pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
+        normals.resize_with(n_heads, Default::default);
+        let (team, litters) = self.team_and_litters();
+        let heads = control.chunks(n_control).zip(positions.chunks_mut(n)).zip(normals);
+        team.share_with(litters, heads, |evaluator, ((control, positions), normals)| {
+            evaluator.evaluate_into(plan, control, positions, normals);
+        });
     }
 }

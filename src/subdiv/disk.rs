@@ -6,7 +6,7 @@
 //! can make it read out of place.
 
 use bytemuck::{AnyBitPattern, NoUninit, Pod, Zeroable};
-use xxhash_rust::xxh3::xxh3_64;
+use twox_hash::XxHash3_64;
 
 use super::limit::LimitTable;
 use super::normals::{RingRun, Rings};
@@ -103,7 +103,7 @@ impl Plan {
             reserved: 0,
             fingerprint: self.fingerprint.to_le(),
             length: (body.len() as u64).to_le(),
-            checksum: xxh3_64(body).to_le(),
+            checksum: XxHash3_64::oneshot(body).to_le(),
         }));
         bytes
     }
@@ -131,7 +131,7 @@ impl Plan {
         if body.len() as u64 != u64::from_le(header.length) {
             return Err(PlanFileError::Length { found: body.len() as u64, expected: u64::from_le(header.length) });
         }
-        if xxh3_64(body) != u64::from_le(header.checksum) {
+        if XxHash3_64::oneshot(body) != u64::from_le(header.checksum) {
             return Err(PlanFileError::Checksum);
         }
         let mut reader = Reader { bytes: body, part: "options" };

@@ -1,8 +1,6 @@
 //! The frame's inner loop: control positions in, refined positions and normals out.
 
 use glam::Vec3;
-use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::kernels;
 use super::lane::Lane;
@@ -10,14 +8,12 @@ use super::patch_kernels::PatchBuffers;
 use super::plan::Plan;
 use super::scheme::{Normals, Positions};
 use super::stencil::StencilTable;
+use super::team::Team;
 
 /// Rows that one task takes: enough to pay for handing it over, few enough to balance.
 const CHUNK: usize = 4096;
 /// Vertices from which on several threads gain more than it costs to wake them.
 const PARALLEL_FROM: usize = 30_000;
-/// More threads than any machine has use for; a larger number is taken as this one.
-const MAX_THREADS: usize = 256;
-
 /// What an [`Evaluator`] lends out until the next call.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface<'a> {
@@ -40,8 +36,7 @@ pub struct Evaluator {
     /// What [`Evaluator::evaluate`] lends out.
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
-    /// None with one thread.
-    pool: Option<ThreadPool>,
+    team: Team,
 }
 
 impl Evaluator {
@@ -55,15 +50,14 @@ impl Evaluator {
     /// Sets the number of threads: 0 and 1 mean the caller's own. Where the system gives no more threads, evaluation
     /// stays on the caller's; results are the same. A plan too small to gain by it is evaluated by one thread anyway.
     pub fn set_threads(&mut self, n: usize) {
-        let n = n.clamp(1, MAX_THREADS);
-        if n != self.threads() {
-            self.pool = if n == 1 { None } else { ThreadPoolBuilder::new().num_threads(n).build().ok() };
+        if !self.team.is_of(n) {
+            self.team = Team::of(n);
         }
     }
 
-    /// The number of threads in use.
+    /// The number of threads in use, the caller's own among them.
     pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
+        self.team.size()
     }
 
     /// Positions and normals of the plan's last level from `control`: finite positions, one for each control vertex.
@@ -89,8 +83,7 @@ impl Evaluator {
         assert_eq!(normals.len(), n_normals(plan), "one normal for each vertex of the last level, if the plan has any");
         let threads = self.threads();
         self.buffers.fit(plan, threads);
-        let buffers = &mut self.buffers;
-        in_pool(self.pool.as_ref(), plan, |parallel| buffers.surface(plan, control, positions, normals, parallel));
+        self.buffers.surface(plan, control, positions, normals, team_for(&self.team, plan));
     }
 
     /// The same stencils on any three channels (a colour, a flow): `control` has one value for each control vertex,
@@ -103,15 +96,13 @@ impl Evaluator {
         assert_eq!(out.len(), plan.n_vertices(), "one value for each vertex of the last level");
         let threads = self.threads();
         self.buffers.fit(plan, threads);
-        let buffers = &mut self.buffers;
-        in_pool(self.pool.as_ref(), plan, |parallel| buffers.attribute(plan, control, out, parallel));
+        self.buffers.attribute(plan, control, out, team_for(&self.team, plan));
     }
 
     /// For a batch: the threads, and an evaluator for each.
-    pub(super) fn threads_and_litters(&mut self) -> (Option<&ThreadPool>, &mut [Evaluator]) {
-        let n = self.threads();
-        self.litters.resize_with(n, Evaluator::empty);
-        (self.pool.as_ref(), &mut self.litters)
+    pub(super) fn team_and_litters(&mut self) -> (&Team, &mut [Evaluator]) {
+        self.litters.resize_with(self.team.size(), Evaluator::empty);
+        (&self.team, &mut self.litters)
     }
 
     /// No buffers, and one thread.
@@ -121,7 +112,7 @@ impl Evaluator {
             litters: Vec::new(),
             positions: Vec::new(),
             normals: Vec::new(),
-            pool: None,
+            team: Team::ALONE,
         }
     }
 
@@ -138,12 +129,9 @@ pub(super) fn n_normals(plan: &Plan) -> usize {
     if plan.options().normals == Normals::None { 0 } else { plan.n_vertices() }
 }
 
-/// Runs the work in the pool if there is one and the plan is large enough to gain by it; tells it whether it does.
-fn in_pool<R: Send>(pool: Option<&ThreadPool>, plan: &Plan, work: impl FnOnce(bool) -> R + Send) -> R {
-    match pool {
-        Some(pool) if plan.n_vertices() >= PARALLEL_FROM => pool.install(|| work(true)),
-        _ => work(false),
-    }
+/// All of the team if the plan is large enough to gain by it.
+fn team_for<'a>(team: &'a Team, plan: &Plan) -> &'a Team {
+    if plan.n_vertices() >= PARALLEL_FROM { team } else { &Team::ALONE }
 }
 
 /// What lies between control positions and the caller's buffers.
@@ -179,77 +167,77 @@ impl Buffers {
         }
     }
 
-    fn surface(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3], parallel: bool) {
+    fn surface(&mut self, plan: &Plan, control: &[Vec3], positions: &mut [Vec3], normals: &mut [Vec3], team: &Team) {
         if let Some(patches) = &plan.patches {
             let wanted = plan.options().positions;
-            return patches.evaluate(wanted, control, positions, normals, &mut self.patches, parallel);
+            return patches.evaluate(wanted, control, positions, normals, &mut self.patches, team);
         }
         if !needs_lanes(plan) {
-            return self.refine_into(plan, control, positions, parallel);
+            return self.refine_into(plan, control, positions, team);
         }
-        self.refine(plan, control, parallel);
+        self.refine(plan, control, team);
         let n = plan.n_vertices();
         match (plan.limit(), &plan.rings) {
             (Some(limit), None) if !normals.is_empty() => {
                 let limit_positions = plan.options().positions == Positions::Limit;
                 let (source, limit_out) = (&self.finest[..n], if limit_positions { &mut *positions } else { &mut [] });
-                for_chunks_of_two(parallel, limit_out, normals, |first, positions, normals| {
+                for_chunks_of_two(team, limit_out, normals, |first, positions, normals| {
                     kernels::limit_surface(limit, first, source, positions, normals);
                 });
                 if !limit_positions {
-                    unpad(parallel, source, positions);
+                    unpad(team, source, positions);
                 }
             }
             (_, rings) => {
-                self.push(plan, parallel);
+                self.push(plan, team);
                 let source = &self.finest[..n];
-                unpad(parallel, source, positions);
+                unpad(team, source, positions);
                 if let Some(rings) = rings {
-                    for_chunks(parallel, normals, |first, normals| rings.normals(first, source, normals));
+                    for_chunks(team, normals, |first, normals| rings.normals(first, source, normals));
                 }
             }
         }
     }
 
-    fn attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], parallel: bool) {
+    fn attribute(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], team: &Team) {
         if let Some(patches) = &plan.patches {
             let wanted = plan.options().positions;
-            return patches.evaluate(wanted, control, out, &mut [], &mut self.patches, parallel);
+            return patches.evaluate(wanted, control, out, &mut [], &mut self.patches, team);
         }
         if plan.limit().is_none() || plan.options().positions == Positions::Level {
-            return self.refine_into(plan, control, out, parallel);
+            return self.refine_into(plan, control, out, team);
         }
-        self.refine(plan, control, parallel);
-        self.push(plan, parallel);
-        unpad(parallel, &self.finest[..plan.n_vertices()], out);
+        self.refine(plan, control, team);
+        self.push(plan, team);
+        unpad(team, &self.finest[..plan.n_vertices()], out);
     }
 
     /// From control values to those of the last level, in `finest`.
-    fn refine(&mut self, plan: &Plan, control: &[Vec3], parallel: bool) {
+    fn refine(&mut self, plan: &Plan, control: &[Vec3], team: &Team) {
         let finest = &mut self.finest[..plan.n_vertices()];
-        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, parallel) {
-            Some(last) => apply(parallel, last, &self.coarse[..last.n_sources()], finest),
+        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, team) {
+            Some(last) => apply(team, last, &self.coarse[..last.n_sources()], finest),
             None => pad(control, finest),
         }
     }
 
     /// From control values to those of the last level, in `out`.
-    fn refine_into(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], parallel: bool) {
-        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, parallel) {
+    fn refine_into(&mut self, plan: &Plan, control: &[Vec3], out: &mut [Vec3], team: &Team) {
+        match refine_but_last(&mut self.coarse, &mut self.fine, plan, control, team) {
             Some(last) => {
                 let source = &self.coarse[..last.n_sources()];
-                for_chunks(parallel, out, |first, out| kernels::apply_positions(last, first, source, out));
+                for_chunks(team, out, |first, out| kernels::apply_positions(last, first, source, out));
             }
             None => out.copy_from_slice(control),
         }
     }
 
     /// Replaces the values in `finest` by where they go, if the plan wants that.
-    fn push(&mut self, plan: &Plan, parallel: bool) {
+    fn push(&mut self, plan: &Plan, team: &Team) {
         let Some(limit) = plan.limit().filter(|_| pushes(plan)) else { return };
         let n = plan.n_vertices();
         let source = &self.finest[..n];
-        for_chunks(parallel, &mut self.limit[..n], |first, out| kernels::limit_positions(limit, first, source, out));
+        for_chunks(team, &mut self.limit[..n], |first, out| kernels::limit_positions(limit, first, source, out));
         std::mem::swap(&mut self.limit, &mut self.finest);
     }
 }
@@ -270,45 +258,38 @@ fn refine_but_last<'p>(
     fine: &mut Vec<Lane>,
     plan: &'p Plan,
     control: &[Vec3],
-    parallel: bool,
+    team: &Team,
 ) -> Option<&'p StencilTable> {
     let (last, steps) = plan.tables().split_last()?;
     pad(control, coarse);
     for table in steps {
-        apply(parallel, table, &coarse[..table.n_sources()], &mut fine[..table.n_rows()]);
+        apply(team, table, &coarse[..table.n_sources()], &mut fine[..table.n_rows()]);
         std::mem::swap(coarse, fine);
     }
     Some(last)
 }
 
-fn apply(parallel: bool, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
-    for_chunks(parallel, out, |first, out| kernels::apply_lanes(table, first, source, out));
+fn apply(team: &Team, table: &StencilTable, source: &[Lane], out: &mut [Lane]) {
+    for_chunks(team, out, |first, out| kernels::apply_lanes(table, first, source, out));
 }
 
 /// Runs `work` over chunks of `out`, each with the index of its first place, on as many threads as there are.
-fn for_chunks<T: Send>(parallel: bool, out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
-    if parallel && out.len() > CHUNK {
-        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| work(chunk * CHUNK, out));
-    } else {
-        work(0, out);
-    }
+fn for_chunks<T: Send>(team: &Team, out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    team.share(out.chunks_mut(CHUNK).enumerate(), |(chunk, out)| work(chunk * CHUNK, out));
 }
 
 /// The same over two lists side by side; the first may be empty.
 fn for_chunks_of_two<T: Send>(
-    parallel: bool,
+    team: &Team,
     first: &mut [T],
     second: &mut [T],
     work: impl Fn(usize, &mut [T], &mut [T]) + Sync,
 ) {
-    if !parallel || second.len() <= CHUNK {
-        work(0, first, second);
-    } else if first.is_empty() {
-        second.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, second)| work(chunk * CHUNK, &mut [], second));
-    } else {
-        let pairs = first.par_chunks_mut(CHUNK).zip(second.par_chunks_mut(CHUNK));
-        pairs.enumerate().for_each(|(chunk, (first, second))| work(chunk * CHUNK, first, second));
+    if first.is_empty() {
+        return for_chunks(team, second, |at, second| work(at, &mut [], second));
     }
+    let pairs = first.chunks_mut(CHUNK).zip(second.chunks_mut(CHUNK)).enumerate();
+    team.share(pairs, |(chunk, (first, second))| work(chunk * CHUNK, first, second));
 }
 
 fn pad(values: &[Vec3], lanes: &mut [Lane]) {
@@ -317,8 +298,8 @@ fn pad(values: &[Vec3], lanes: &mut [Lane]) {
     }
 }
 
-fn unpad(parallel: bool, lanes: &[Lane], values: &mut [Vec3]) {
-    for_chunks(parallel, values, |first, values| {
+fn unpad(team: &Team, lanes: &[Lane], values: &mut [Vec3]) {
+    for_chunks(team, values, |first, values| {
         for (value, &lane) in values.iter_mut().zip(&lanes[first..]) {
             *value = lane.into();
         }

@@ -46,6 +46,7 @@ pub mod sqrt3_interpolating;
 mod stencil;
 mod steps;
 mod tags;
+mod team;
 mod thirds;
 
 pub use adaptive::Candidate;

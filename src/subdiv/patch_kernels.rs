@@ -1,7 +1,6 @@
 //! Patches of one class, sixteen at a time: every step, the limit and the normals between two looks at memory.
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::kernels::fetch;
 use super::limit::LimitTable;
@@ -11,6 +10,7 @@ use super::runs::pieces;
 use super::scheme::Positions;
 use super::shared_patches::{Class, Delivery, LANES, SharedPatches};
 use super::stencil::StencilTable;
+use super::team::Team;
 
 /// The same vertex of sixteen patches: all x, all y, all z.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -28,8 +28,8 @@ impl Default for Block {
     }
 }
 
-/// Shares for each thread, so that a slow one does not keep the others waiting.
-const SHARES: usize = 8;
+/// Groups of patches that a thread takes at once: enough to pay for the taking, few enough to balance.
+const GROUPS: usize = 4;
 
 /// The buffers of one worker: two levels in turn, and what is delivered.
 #[derive(Debug, Default)]
@@ -60,17 +60,16 @@ impl PatchBuffers {
 }
 
 impl SharedPatches {
-    /// Makes buffers fit, one for each share of the work.
+    /// Makes buffers fit, one for each thread.
     pub(super) fn fit(&self, buffers: &mut Vec<PatchBuffers>, threads: usize) {
-        let n = if threads > 1 { SHARES * threads } else { 1 };
-        if buffers.len() < n {
-            buffers.resize_with(n, PatchBuffers::default);
+        if buffers.len() < threads {
+            buffers.resize_with(threads, PatchBuffers::default);
         }
         buffers.iter_mut().for_each(|buffers| buffers.fit(self));
     }
 
-    /// Positions of the last level from control positions, and normals unless their list is empty. With `parallel`, each of
-    /// the buffers stands for a share of the work.
+    /// Positions of the last level from control positions, and normals unless their list is empty. There are
+    /// buffers for each of the team.
     pub(super) fn evaluate(
         &self,
         wanted: Positions,
@@ -78,26 +77,18 @@ impl SharedPatches {
         positions: &mut [Vec3],
         normals: &mut [Vec3],
         buffers: &mut [PatchBuffers],
-        parallel: bool,
+        team: &Team,
     ) {
         assert_eq!(control.len(), self.n_control, "one value for each control vertex");
         assert_eq!(positions.len(), self.n_vertices, "one position for each vertex");
         assert!(normals.is_empty() || normals.len() == self.n_vertices, "one normal for each vertex, or none");
         let out = [Places::of(positions), Places::of(normals)];
-        let share = |buffers: &mut PatchBuffers, groups: std::ops::Range<usize>| {
-            for group in groups {
+        let starts = (0..self.groups.len()).step_by(GROUPS);
+        team.share_with(buffers, starts, |buffers, start| {
+            for group in start..(start + GROUPS).min(self.groups.len()) {
                 self.group(wanted, group, control, &out, buffers);
             }
-        };
-        match buffers {
-            [first, ..] if !parallel => share(first, 0..self.groups.len()),
-            _ => {
-                let (n, n_groups) = (buffers.len(), self.groups.len());
-                buffers.par_iter_mut().enumerate().for_each(|(i, buffers)| {
-                    share(buffers, i * n_groups / n..(i + 1) * n_groups / n);
-                });
-            }
-        }
+        });
     }
 
     fn group(
