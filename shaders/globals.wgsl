@@ -14,7 +14,8 @@ struct Globals {
     // sRGB.
     background_top: vec4<f32>,
     background_bottom: vec4<f32>,
-    // The head's size (m), a pixel at the target (m), a texel of the shadow map (part of its side), unused.
+    // The head's size (m), a pixel at the target (m), a texel of the shadow map (part of its side), the
+    // skin's opacity.
     measures: vec4<f32>,
     // Width and height in pixels, and one over each.
     viewport: vec4<f32>,

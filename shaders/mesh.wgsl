@@ -11,11 +11,15 @@
 override kind: u32 = 0u;
 // Leave out what costs most.
 override draft: bool = false;
+// Blend with what lies behind, by the skin's opacity; edges, where one looks along it, hide more.
+override seen_through: bool = false;
 const NOSE: u32 = 1u;
 const LIP: u32 = 2u;
 const MOUTH: u32 = 3u;
 const EYE: u32 = 4u;
 const CAP: u32 = 5u;
+const BONE: u32 = 6u;
+const TOOTH: u32 = 7u;
 
 // Light, linear.
 const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
@@ -335,11 +339,19 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         case CAP: {
             light = colour * diffuse(point, 0.3);
         }
+        case BONE, TOOTH: {
+            light = colour * diffuse(point, 0.2) + moisture(point, gloss);
+        }
         default: {
             light = coat(point, colour, in.flow, fur);
             // Bare or moist margins shade off into the coat.
             light += moisture(point, gloss * (1.0 - fur));
         }
     }
-    return vec4<f32>(encoded(film(light)), 1.0);
+    var opacity = 1.0;
+    if seen_through {
+        let grazing = 1.0 - clamp(dot(normal, view), 0.0, 1.0);
+        opacity = mix(globals.measures.w, 1.0, 0.85 * grazing * grazing * grazing);
+    }
+    return vec4<f32>(encoded(film(light)) * opacity, opacity);
 }

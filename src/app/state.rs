@@ -2,6 +2,7 @@
 
 use super::history::History;
 use crate::anatomy::{Breed, ParamTable};
+use crate::frame::Layers;
 use crate::render::{Background, Camera, Lens, Shading, View};
 use glam::Vec3;
 use std::collections::{BTreeMap, VecDeque};
@@ -139,6 +140,8 @@ pub struct EditorState {
     level: u32,
     /// Surfaces, lines, or the control mesh.
     pub shading: Shading,
+    /// Which layers are shown, and how much of the skin.
+    pub layers: Layers,
     /// From where.
     pub camera: Camera,
     /// The camera is to be fitted to the head before the next picture.
@@ -185,6 +188,7 @@ impl EditorState {
             unchanged,
             level: 4,
             shading: Shading::Shaded,
+            layers: Layers::default(),
             camera: Camera::at(View::Portrait, None, Lens::default()),
             wants_fit: true,
             light_turn: 0.0,

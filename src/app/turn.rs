@@ -87,6 +87,9 @@ impl Turn {
         if let Err(e) = self.pipeline.set_level(self.state.level()) {
             self.state.complain(e.to_string());
         }
+        if let Err(e) = self.pipeline.set_layers(self.state.layers) {
+            self.state.complain(e.to_string());
+        }
         let frame = self.pipeline.update(self.state.breed());
         // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
         let has_moved = frame.revisions.shape != self.shape;
@@ -147,6 +150,7 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
         background: state.background,
         light_turn: state.light_turn,
         on_card: state.on_card,
+        skin_opacity: state.layers.skin,
         pixels_per_point,
     }
 }

@@ -1,7 +1,8 @@
 //! Baked assets: what is made of the patch file and the table, bit for bit the same each time.
 
-use super::{base, patch};
+use super::{base, bone, patch};
 use crate::anatomy::{Breed, LoadErrors, ParamTable};
+use crate::rig::bone::{BoneHalf, BoneMesh};
 use crate::rig::{ControlError, HalfMesh, Handles, Measures, Proportions, RigError, columns};
 
 /// The patch file that is part of the program.
@@ -56,7 +57,32 @@ pub fn head(patch_text: &str, table: &ParamTable) -> Result<HalfMesh, BakeError>
 /// See [`head`].
 pub fn all() -> Result<Vec<Baked>, BakeError> {
     let half = head(PATCH, &ParamTable::embedded()?)?;
-    Ok(vec![Baked { path: "assets/head.ron", text: text(&half) }])
+    Ok(vec![
+        Baked { path: "assets/head.ron", text: text(&half) },
+        Baked { path: "assets/skull.ron", text: bone_text(&bone::half(BoneMesh::Skull)) },
+        Baked { path: "assets/mandible.ron", text: bone_text(&bone::half(BoneMesh::Mandible)) },
+    ])
+}
+
+/// A bone as RON.
+fn bone_text(half: &BoneHalf) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from(
+        "// Baked by `londra bake` from src/rig/bone/field.rs. Edit that, not this.\n(\n    version: 1,\n",
+    );
+    let mut list = |name: &str, rows: Vec<String>, per_line: usize| {
+        let _ = writeln!(out, "    {name}: [");
+        for line in rows.chunks(per_line) {
+            let _ = writeln!(out, "        {},", line.join(", "));
+        }
+        let _ = writeln!(out, "    ],");
+    };
+    list("midline", half.midline.iter().map(bool::to_string).collect(), 20);
+    list("faces", half.faces.iter().map(|[a, b, c]| format!("({a}, {b}, {c})")).collect(), 8);
+    list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 6);
+    list("landmarks", half.landmarks.iter().map(|(id, v)| format!("({id:?}, {v})")).collect(), 8);
+    out.push_str(")\n");
+    out
 }
 
 /// The half mesh as RON, a line for each vertex and triangle, so that a change reads well as a difference.

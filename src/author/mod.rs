@@ -2,4 +2,6 @@
 
 pub mod bake;
 pub mod base;
+pub mod bone;
+mod nets;
 pub mod patch;

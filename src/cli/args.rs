@@ -1,6 +1,7 @@
 //! Commands and options, as clap reads them.
 
 use super::values::{self, Setting, Share};
+use crate::frame::Layers;
 use crate::render::{Background, Lens, View as Direction};
 use crate::subdiv::{BoundaryRule, Creasing, LoopWeights, Rim, Scheme};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -125,6 +126,9 @@ pub(super) struct Scene {
     /// none, white, black, grey, silver, or rrggbb; without it, a quiet grey
     #[arg(long, value_name = "COLOUR|none", value_parser = values::background)]
     pub background: Option<Background>,
+    /// What is there, with commas between: skin, eyes, bone, teeth; skin=0.3 is seen through
+    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes", value_parser = Layers::parse)]
+    pub layers: Layers,
 }
 
 /// Where the result goes.
@@ -141,6 +145,7 @@ pub(super) struct Target {
 #[command(after_help = "Examples:\n  \
     londra render --breed pug -o pug.png\n  \
     londra render --breed beagle --view side --size 800x600 --background none -o beagle.png\n  \
+    londra render --breed pug --view side --layers skin=0.3,bone,teeth -o xray.png\n  \
     londra render --breed borzoi --blend pug=0.5 --view 120,20 --pitch 0 -o - | display")]
 pub(super) struct Render {
     #[command(flatten)]

@@ -18,13 +18,15 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
 
     let mut camera = Camera::at(args.view, args.scene.pitch, args.scene.lens);
     let [width, height] = args.size;
     camera.fit(frame.parts.iter().flat_map(|p| p.positions), width as f32 / height as f32, MARGIN);
-    let drawing = Drawing { background: background(&args.scene), ..Drawing::new(camera) };
+    let drawing =
+        Drawing { background: background(&args.scene), skin_opacity: args.scene.layers.skin, ..Drawing::new(camera) };
     let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
@@ -40,6 +42,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let breeds: Vec<Breed> =
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {
@@ -48,6 +51,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     };
     let Scene { pitch, lens, .. } = args.scene;
     let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
+    sheet.skin_opacity = args.scene.layers.skin;
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
     }

@@ -16,6 +16,8 @@ pub(super) const fn name(material: Material) -> &'static str {
         Material::Mouth => "mouth",
         Material::Eye => "eye",
         Material::Cap => "neck_cap",
+        Material::Bone => "bone",
+        Material::Tooth => "tooth",
     }
 }
 
@@ -23,8 +25,9 @@ pub(super) const fn name(material: Material) -> &'static str {
 pub(super) fn material(material: Material, fur: f32) -> json::Material {
     let roughness = match material {
         Material::Coat | Material::Cap => 0.95,
-        Material::Lip => 0.5,
+        Material::Lip | Material::Bone => 0.5,
         Material::Nose | Material::Mouth => 0.4,
+        Material::Tooth => 0.25,
         Material::Eye => 0.1,
     };
     json::Material {
@@ -52,7 +55,7 @@ fn extensions(material: Material, fur: f32) -> Option<Map<String, Value>> {
         Material::Eye => {
             vec![("KHR_materials_clearcoat", clearcoat(1.0, 0.02)), ("KHR_materials_ior", json!({ "ior": 1.376 }))]
         }
-        Material::Lip | Material::Mouth | Material::Cap => return None,
+        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth => return None,
     };
     Some(entries.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }

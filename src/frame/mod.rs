@@ -1,10 +1,14 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
 mod eyeball;
+mod layers;
 mod parts;
 mod pipeline;
+mod skeleton;
 mod skin;
+mod values;
 
+pub use layers::{Layers, LayersError};
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
 pub use pipeline::{MAX_LEVEL, Pipeline, PipelineError};
 

@@ -22,6 +22,10 @@ pub enum Material {
     Eye,
     /// The flat cap that closes the neck.
     Cap,
+    /// Skull and mandible.
+    Bone,
+    /// Crowns of the teeth.
+    Tooth,
 }
 
 /// A run of indices with one material.
@@ -38,7 +42,7 @@ pub struct MaterialRange {
 /// The part of a [`Part`] that stays while only values change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartTopology {
-    /// `skin`, `neck_cap`, `eye_L` or `eye_R`; unique in a frame; letters, digits and `_`.
+    /// `skin`, `neck_cap`, `eye_L`, `eye_R`, `skull`, `mandible`, `teeth_upper` or `teeth_lower`; unique in a frame; letters, digits and `_`.
     pub name: &'static str,
     /// Number of vertices: the length of every value slice of the part.
     pub n_vertices: usize,
@@ -79,7 +83,8 @@ pub struct Revisions {
 /// Everything visible of one head at one moment, borrowed from the pipeline that made it.
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
-    /// In the written order: skin, `neck_cap`, `eye_L`, `eye_R`.
+    /// In the written order, those of the layers that are shown: skin, `neck_cap`, `eye_L`, `eye_R`, `skull`, `mandible`,
+    /// `teeth_upper`, `teeth_lower`.
     pub parts: Vec<Part<'a>>,
     /// Control positions of the skin, metres; length: control vertices.
     pub control: &'a [Vec3],

@@ -4,11 +4,14 @@
 //! Lifetimes: the plan of a level until another is asked for; shape buffers written when the values changed; colours when
 //! the look did.
 
-use super::parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
+use super::layers::Layers;
+use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
+use super::skeleton::Skeleton;
+use super::values::Values;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;
-use crate::rig::{Deformed, Rig, deform};
+use crate::rig::{ControlError, Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
@@ -25,42 +28,9 @@ pub enum PipelineError {
     /// The plan cannot be built.
     #[error(transparent)]
     Plan(#[from] PlanError),
-}
-
-/// Values of one part.
-#[derive(Clone, Debug)]
-struct Values {
-    topology: Arc<PartTopology>,
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    colours: Vec<Vec3>,
-    surface: Vec<Vec3>,
-    flow: Vec<Vec3>,
-}
-
-impl Values {
-    fn new(topology: PartTopology) -> Self {
-        let zero = vec![Vec3::ZERO; topology.n_vertices];
-        Self {
-            topology: Arc::new(topology),
-            positions: zero.clone(),
-            normals: zero.clone(),
-            colours: zero.clone(),
-            surface: zero.clone(),
-            flow: zero,
-        }
-    }
-
-    fn part(&self) -> Part<'_> {
-        Part {
-            topology: &self.topology,
-            positions: &self.positions,
-            normals: &self.normals,
-            colours: &self.colours,
-            surface: &self.surface,
-            flow: &self.flow,
-        }
-    }
+    /// A baked bone is none.
+    #[error(transparent)]
+    Bone(#[from] ControlError),
 }
 
 /// From breeds to frames.
@@ -75,6 +45,9 @@ pub struct Pipeline {
     control_colours: Vec<Vec3>,
     control_surface: Vec<Vec3>,
     parts: [Values; 4],
+    layers: Layers,
+    /// Once bone or teeth are asked for.
+    skeleton: Option<Skeleton>,
     values: Vec<f32>,
     look: Option<Look>,
     revisions: Revisions,
@@ -98,6 +71,8 @@ impl Pipeline {
             control_colours: vec![Vec3::ZERO; n],
             control_surface: vec![Vec3::ZERO; n],
             parts,
+            layers: Layers::default(),
+            skeleton: None,
             values: Vec::new(),
             look: None,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
@@ -147,6 +122,32 @@ impl Pipeline {
         Ok(())
     }
 
+    /// Which layers the next frames have. What is there of the skin is evaluated in any case; bone and teeth only when
+    /// they are asked for.
+    ///
+    /// # Errors
+    /// Where a baked bone is none.
+    pub fn set_layers(&mut self, layers: Layers) -> Result<(), PipelineError> {
+        let shown = |l: Layers| (l.skin > 0.0, l.eyes, l.bone, l.teeth);
+        let (had, wants) = (self.layers.bone || self.layers.teeth, layers.bone || layers.teeth);
+        if wants && self.skeleton.is_none() {
+            self.skeleton = Some(Skeleton::new()?);
+        }
+        if wants && !had {
+            self.values.clear();
+        }
+        if shown(layers) != shown(self.layers) {
+            self.revisions.topology += 1;
+        }
+        self.layers = layers;
+        Ok(())
+    }
+
+    /// Which layers a frame has.
+    pub fn layers(&self) -> Layers {
+        self.layers
+    }
+
     /// Threads that evaluate; the bits do not depend on it.
     pub fn set_threads(&mut self, n: usize) {
         self.threads = n;
@@ -183,12 +184,20 @@ impl Pipeline {
     /// The last frame again.
     pub fn frame(&self) -> Frame<'_> {
         Frame {
-            parts: self.parts.iter().map(Values::part).collect(),
+            parts: self.shown().map(Values::part).collect(),
             control: &self.deformed.control,
             control_indices: self.rig.mesh().indices(),
-            plan: Some(&self.plan),
+            plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
             revisions: self.revisions,
         }
+    }
+
+    /// The parts of the layers, in the written order.
+    fn shown(&self) -> impl Iterator<Item = &Values> {
+        let Layers { skin, eyes, bone, teeth } = self.layers;
+        let own = [skin > 0.0, skin > 0.0, eyes, eyes];
+        let deep = self.skeleton.iter().flat_map(move |s| s.parts(bone, teeth));
+        self.parts.iter().zip(own).filter(|(_, shown)| *shown).map(|(part, _)| part).chain(deep)
     }
 
     fn shape(&mut self, values: &[f32]) {
@@ -201,6 +210,10 @@ impl Pipeline {
         place_cap(&self.plan, &skin.positions, cap);
         for (eye, part) in self.deformed.eyes.iter().zip([left, right]) {
             eyeball::place(eye, &mut part.positions, &mut part.normals);
+        }
+        let wants_skeleton = self.layers.bone || self.layers.teeth;
+        if let Some(skeleton) = self.skeleton.as_mut().filter(|_| wants_skeleton) {
+            skeleton.shape(&self.rig.measures(values), &self.rig.proportions(values));
         }
     }
 
@@ -226,13 +239,14 @@ impl Pipeline {
             vectors(&mut control, &eye.axes);
         }
         let (mut positions, mut normals, mut indices) = (Fnv64::new(), Fnv64::new(), Fnv64::new());
-        for part in &self.parts {
+        for part in self.shown() {
             vectors(&mut positions, &part.positions);
             vectors(&mut normals, &part.normals);
         }
-        // The plan's own order, whatever order materials are drawn in.
-        for &i in self.plan.indices().iter().chain(self.parts[1..].iter().flat_map(|p| &p.topology.indices)) {
-            indices.u32(i);
+        for part in self.shown() {
+            // The plan's own order, whatever order materials are drawn in.
+            let own = if part.topology.name == "skin" { self.plan.indices() } else { &part.topology.indices };
+            own.iter().for_each(|&i| indices.u32(i));
         }
         StageHashes {
             control: control.finish(),

@@ -51,7 +51,7 @@ impl Extent {
 
 impl Globals {
     /// `size`: of the picture in pixels; `light_turn`: of the studio around the vertical, radians; `shadow_texels`:
-    /// side of the shadow map; `background`: top and bottom as they stand in the file, sRGB.
+    /// side of the shadow map; `background`: top and bottom as they stand in the file, sRGB; `skin_opacity`: 0 to 1.
     pub(super) fn new(
         camera: &Camera,
         extent: Extent,
@@ -59,6 +59,7 @@ impl Globals {
         light_turn: f32,
         shadow_texels: u32,
         background: [Vec4; 2],
+        skin_opacity: f32,
     ) -> Self {
         let [width, height] = size.map(|s| s.max(1) as f32);
         let head_from_world = camera.world_from_head().transpose();
@@ -84,7 +85,7 @@ impl Globals {
             up: (head_from_world * Vec3::Y).extend(0.0),
             background_top: background[0],
             background_bottom: background[1],
-            measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, 0.0),
+            measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, skin_opacity),
             viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
         }
     }
@@ -125,7 +126,7 @@ mod tests {
             let mut camera = Camera::at(view, None, Lens::default());
             camera.elevation = camera.elevation.min(0.5);
             let extent = Extent { centre: Vec3::ZERO, radius: 0.1 };
-            let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2]);
+            let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2], 1.0);
             let key = camera.world_from_head() * globals.key.truncate();
             let [right, up, _] = camera.axes_in_world();
             assert!(key.dot(right) < -0.2 && key.dot(up) > 0.1, "{view:?}");

@@ -6,8 +6,16 @@ use super::targets::{COLOUR, DEPTH, SAMPLES};
 use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
-const MATERIALS: [Material; 6] =
-    [Material::Coat, Material::Nose, Material::Lip, Material::Mouth, Material::Eye, Material::Cap];
+const MATERIALS: [Material; 8] = [
+    Material::Coat,
+    Material::Nose,
+    Material::Lip,
+    Material::Mouth,
+    Material::Eye,
+    Material::Cap,
+    Material::Bone,
+    Material::Tooth,
+];
 
 /// How much work a pixel is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,13 +36,20 @@ fn code(material: Material) -> u32 {
         Material::Mouth => 3,
         Material::Eye => 4,
         Material::Cap => 5,
+        Material::Bone => 6,
+        Material::Tooth => 7,
     }
 }
 
-/// A pipeline for each material, and bindings that do not change with the head.
+/// Whether it is seen through where the skin is.
+pub(super) fn is_skin(material: Material) -> bool {
+    !matches!(material, Material::Eye | Material::Bone | Material::Tooth)
+}
+
+/// A pipeline for each material, solid and seen through, and bindings that do not change with the head.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    pipelines: [wgpu::RenderPipeline; MATERIALS.len()],
+    pipelines: [[wgpu::RenderPipeline; MATERIALS.len()]; 2],
     bindings: wgpu::BindGroup,
 }
 
@@ -55,22 +70,25 @@ impl MeshPass {
         });
         let module = sources.compile(device, ShaderFile::Mesh)?;
         let pipelines = build_checked(device, ShaderFile::Mesh, || {
-            MATERIALS.map(|material| pipeline(device, &module, &layout, material, quality))
+            [false, true]
+                .map(|clear| MATERIALS.map(|material| pipeline(device, &module, &layout, material, quality, clear)))
         })?;
         Ok(Self { pipelines, bindings: bindings(device, queue, &own, shadow) })
     }
 
-    /// Draws every run; the globals are bound as group 0.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers) {
+    /// Draws every run; the globals are bound as group 0. Skin that is seen through comes last.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers, clear_skin: bool) {
         pass.set_bind_group(1, &self.bindings, &[]);
         let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface];
         for (slot, buffer) in (0..).zip(values) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
         pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for run in &head.runs {
-            pass.set_pipeline(&self.pipelines[code(run.material) as usize]);
-            pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
+        for clear in [false, true] {
+            for run in head.runs.iter().filter(|run| (clear_skin && is_skin(run.material)) == clear) {
+                pass.set_pipeline(&self.pipelines[usize::from(clear)][code(run.material) as usize]);
+                pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
+            }
         }
     }
 }
@@ -81,9 +99,11 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     material: Material,
     quality: Quality,
+    clear: bool,
 ) -> wgpu::RenderPipeline {
     let draft = f64::from(u8::from(quality == Quality::Draft));
-    let constants = [("kind", f64::from(code(material))), ("draft", draft)];
+    let seen_through = f64::from(u8::from(clear));
+    let constants = [("kind", f64::from(code(material))), ("draft", draft), ("seen_through", seen_through)];
     let attributes: [[wgpu::VertexAttribute; 1]; 5] = [
         wgpu::vertex_attr_array![0 => Float32x3],
         wgpu::vertex_attr_array![1 => Float32x3],
@@ -103,11 +123,11 @@ fn pipeline(
             compilation_options: Default::default(),
             buffers: &buffers,
         },
-        // Both sides: one looks into nostrils and into an open mouth.
-        primitive: Default::default(),
+        // Both sides: one looks into nostrils and into an open mouth. Of what is seen through, the near side.
+        primitive: wgpu::PrimitiveState { cull_mode: clear.then_some(wgpu::Face::Back), ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
-            depth_write_enabled: Some(true),
+            depth_write_enabled: Some(!clear),
             depth_compare: Some(wgpu::CompareFunction::Less),
             stencil: Default::default(),
             bias: Default::default(),
@@ -117,7 +137,10 @@ fn pipeline(
             module,
             entry_point: Some("fragment"),
             compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[Some(COLOUR.into())],
+            targets: &[Some(wgpu::ColorTargetState {
+                blend: clear.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                ..COLOUR.into()
+            })],
         }),
         multiview_mask: None,
         cache: None,

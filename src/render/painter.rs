@@ -40,6 +40,8 @@ pub struct Drawing {
     pub light_turn: f32,
     /// Whether the graphics card evaluates the skin, if it can. The picture differs by rounding at most.
     pub on_card: bool,
+    /// Of the skin, 0 to 1, if it is among the frame's parts.
+    pub skin_opacity: f32,
     /// Pixels per unit of line width: 1, or the window's scale factor.
     pub pixels_per_point: f32,
 }
@@ -53,6 +55,7 @@ impl Drawing {
             background: Background::default(),
             light_turn: 0.0,
             on_card: false,
+            skin_opacity: 1.0,
             pixels_per_point: 1.0,
         }
     }
@@ -189,15 +192,23 @@ impl Painter {
         }
         let extent = Extent::of_box(frame.bounds());
         let edges = drawing.background.edges();
-        let globals =
-            Globals::new(&drawing.camera, extent, targets.size, drawing.light_turn, shadow_pass::TEXELS, edges);
+        let globals = Globals::new(
+            &drawing.camera,
+            extent,
+            targets.size,
+            drawing.light_turn,
+            shadow_pass::TEXELS,
+            edges,
+            drawing.skin_opacity,
+        );
         queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
 
-        self.passes.shadow.draw(encoder, &self.globals_bindings, head);
+        let clear_skin = drawing.skin_opacity < 1.0;
+        self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin);
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
         self.passes.ground.draw(&mut pass);
-        self.passes.mesh.draw(&mut pass, head);
+        self.passes.mesh.draw(&mut pass, head, clear_skin);
         if lines.is_some() {
             self.passes.wire.draw(&mut pass);
         }

@@ -1,6 +1,7 @@
 //! Depth of the head seen from the key light.
 
 use super::head_buffers::HeadBuffers;
+use super::mesh_pass::is_skin;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
 use super::targets::DEPTH;
 
@@ -70,7 +71,13 @@ impl ShadowPass {
     }
 
     /// Fills the map.
-    pub(super) fn draw(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, head: &HeadBuffers) {
+    pub(super) fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        globals: &wgpu::BindGroup,
+        head: &HeadBuffers,
+        clear_skin: bool,
+    ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -84,7 +91,8 @@ impl ShadowPass {
         pass.set_bind_group(0, globals, &[]);
         pass.set_vertex_buffer(0, head.positions.slice(..));
         pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for run in &head.runs {
+        // What is seen through throws no shadow.
+        for run in head.runs.iter().filter(|run| !(clear_skin && is_skin(run.material))) {
             pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
         }
     }

@@ -25,6 +25,8 @@ pub struct Sheet {
     lens: Lens,
     pitch: Option<f32>,
     background: Background,
+    /// Of the skin, 0 to 1: 1 unless it is set.
+    pub skin_opacity: f32,
     distance: f32,
     rows: Vec<(String, Vec<Picture>)>,
 }
@@ -40,7 +42,7 @@ impl Sheet {
         pitch: Option<f32>,
         background: Background,
     ) -> Self {
-        Self { views, cell, fit, lens, pitch, background, distance: 0.0, rows: Vec::new() }
+        Self { views, cell, fit, lens, pitch, background, skin_opacity: 1.0, distance: 0.0, rows: Vec::new() }
     }
 
     /// The largest cell with which a sheet of so many rows and columns stays within `size` (width, height, pixels).
@@ -72,7 +74,8 @@ impl Sheet {
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let drawing = Drawing { background: self.background, ..Drawing::new(camera) };
+            let drawing =
+                Drawing { background: self.background, skin_opacity: self.skin_opacity, ..Drawing::new(camera) };
             cells.push(offscreen.draw(frame, &drawing, self.cell)?);
         }
         self.rows.push((name.to_owned(), cells));

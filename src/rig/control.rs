@@ -35,7 +35,7 @@ pub struct HalfMesh {
 #[derive(Debug, thiserror::Error)]
 pub enum ControlError {
     /// The file is not RON of the right form.
-    #[error("assets/head.ron:{0}")]
+    #[error("a baked asset:{0}")]
     Syntax(#[from] ron::error::SpannedError),
     /// Lists of unequal length, or a number out of range.
     #[error("assets/head.ron: `{0}` does not fit the {1} vertices of the half mesh")]
@@ -44,7 +44,7 @@ pub enum ControlError {
     #[error("assets/head.ron: the shape needs a vertex `{0}`")]
     Missing(String),
     /// The mirrored mesh is no manifold.
-    #[error("assets/head.ron: {0}")]
+    #[error("a baked asset: {0}")]
     Mesh(#[from] MeshError),
 }
 

@@ -2,12 +2,14 @@
 //!
 //! Definition and state are apart: a [`Rig`] is loaded once and shared, what changes with a breed is in [`Deformed`].
 
+pub mod bone;
 mod control;
 pub mod deform;
 mod flow;
 pub mod handles;
 pub mod implicit;
 mod lanes;
+mod primitives;
 mod proportions;
 
 pub use control::{ControlError, HalfMesh, HalfRings};
@@ -134,9 +136,14 @@ impl Rig {
         &self.plan
     }
 
+    /// A breed's values (SI, one per row of the table the rig was made for) by name.
+    pub fn measures(&self, values: &[f32]) -> Measures {
+        Measures::from_values(values, &self.columns)
+    }
+
     /// A head's proportions from a breed's values (SI, one per row of the table the rig was made for).
     pub fn proportions(&self, values: &[f32]) -> Proportions {
-        Proportions::new(&Measures::from_values(values, &self.columns))
+        Proportions::new(&self.measures(values))
     }
 
     /// Control positions and eyes of one head; `rounds` of the fit are [`deform::ROUNDS`] everywhere but in the test that

@@ -357,6 +357,10 @@ impl Proportions {
     pub fn metres(&self, p: Vec3) -> Vec3 {
         self.muzzle_from_head(p - self.hinge()) * self.scale
     }
+    /// Back from the head's frame.
+    pub fn proportional(&self, p: Vec3) -> Vec3 {
+        self.head_from_muzzle(p * (1.0 / self.scale)) + self.hinge()
+    }
     /// A direction into the head's frame.
     pub fn direction(&self, d: Vec3) -> Vec3 {
         self.muzzle_from_head(d)

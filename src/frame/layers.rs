@@ -1,0 +1,79 @@
+//! Which layers of the head a frame has.
+
+/// What is there, and how much of the skin is seen. By default skin and eyes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layers {
+    /// Opacity of the skin, 0 to 1; at 0 it is not there.
+    pub skin: f32,
+    /// Eyeballs.
+    pub eyes: bool,
+    /// Skull and mandible.
+    pub bone: bool,
+    /// Crowns of the teeth.
+    pub teeth: bool,
+}
+
+impl Default for Layers {
+    fn default() -> Self {
+        Self { skin: 1.0, eyes: true, bone: false, teeth: false }
+    }
+}
+
+/// Why a list of layers is none.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LayersError {
+    /// There is no such layer.
+    #[error("there is no layer `{0}`; there are {names}", names = Layers::NAMES.join(", "))]
+    Unknown(String),
+    /// Not a number, or out of range.
+    #[error("`{0}` is no opacity: write skin=0 to skin=1")]
+    Opacity(String),
+    /// Only the skin can be seen through.
+    #[error("`{0}` cannot be seen through; only skin takes an opacity")]
+    Solid(String),
+}
+
+impl Layers {
+    /// The names that [`Layers::parse`] knows.
+    pub const NAMES: [&'static str; 4] = ["skin", "eyes", "bone", "teeth"];
+
+    /// From a list with commas between: `bone,teeth,skin=0.3`. What is not named is not there.
+    ///
+    /// # Errors
+    /// An unknown name, or an opacity that is none.
+    pub fn parse(text: &str) -> Result<Self, LayersError> {
+        let mut layers = Self { skin: 0.0, eyes: false, bone: false, teeth: false };
+        for word in text.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+            let (name, opacity) = word.split_once('=').map_or((word, None), |(name, n)| (name.trim(), Some(n.trim())));
+            match (name, opacity) {
+                ("skin", None) => layers.skin = 1.0,
+                ("skin", Some(n)) => {
+                    let opacity = n.parse::<f32>().ok().filter(|o| (0.0..=1.0).contains(o));
+                    layers.skin = opacity.ok_or_else(|| LayersError::Opacity(word.to_owned()))?;
+                }
+                ("eyes" | "bone" | "teeth", Some(_)) => return Err(LayersError::Solid(word.to_owned())),
+                ("eyes", None) => layers.eyes = true,
+                ("bone", None) => layers.bone = true,
+                ("teeth", None) => layers.teeth = true,
+                _ => return Err(LayersError::Unknown(name.to_owned())),
+            }
+        }
+        Ok(layers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Layers, LayersError};
+
+    #[test]
+    fn a_list_of_layers_is_read_wrong() {
+        let xray = Layers::parse("bone, teeth ,skin=0.3").expect("a list");
+        assert_eq!(xray, Layers { skin: 0.3, eyes: false, bone: true, teeth: true });
+        assert_eq!(Layers::parse("skin,eyes"), Ok(Layers::default()));
+        assert!(matches!(Layers::parse("skin=2"), Err(LayersError::Opacity(_))));
+        assert!(matches!(Layers::parse("skin=NaN"), Err(LayersError::Opacity(_))));
+        assert!(matches!(Layers::parse("bone=0.5"), Err(LayersError::Solid(_))));
+        assert!(matches!(Layers::parse("fur"), Err(LayersError::Unknown(_))));
+    }
+}

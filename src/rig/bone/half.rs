@@ -1,0 +1,58 @@
+//! The control mesh of a bone as baked: one half, mirrored when loaded.
+
+use crate::mesh::{DedgeMesh, MeshError};
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Half of a bone's control mesh (x ≥ 0). The whole is that half, in its order, followed by the mirror images of its
+/// vertices off the median plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoneHalf {
+    /// Format version, 1.
+    pub version: u32,
+    /// Whether each vertex lies in the median plane.
+    pub midline: Vec<bool>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub faces: Vec<[u16; 3]>,
+    /// Positions on the canonical skull, millimetres, head's frame.
+    pub base: Vec<[f32; 3]>,
+    /// Landmark id, vertex.
+    pub landmarks: Vec<(String, u16)>,
+}
+
+impl BoneHalf {
+    /// For each half vertex, its number on the other side in the whole mesh; itself on the midline.
+    pub fn mirror(&self) -> Vec<u32> {
+        let mut next = self.midline.len() as u32;
+        let image = |(v, &middle): (usize, &bool)| {
+            if middle {
+                return v as u32;
+            }
+            next += 1;
+            next - 1
+        };
+        self.midline.iter().enumerate().map(image).collect()
+    }
+
+    /// Connectivity of the whole mesh.
+    ///
+    /// # Errors
+    /// Where it is not an oriented manifold.
+    pub fn mesh(&self) -> Result<DedgeMesh, MeshError> {
+        let mirror = self.mirror();
+        let left = self.faces.iter().map(|f| f.map(u32::from));
+        let right = self.faces.iter().map(|&[a, b, c]| [a, c, b].map(|v| mirror[v as usize]));
+        let triangles: Vec<[u32; 3]> = left.chain(right).collect();
+        let n = self.midline.len() + self.midline.iter().filter(|m| !**m).count();
+        DedgeMesh::from_triangles(n, &triangles)
+    }
+
+    /// Writes the whole mesh's positions from the half's.
+    pub fn unfold(&self, half: &[Vec3], whole: &mut Vec<Vec3>) {
+        whole.clear();
+        whole.extend_from_slice(half);
+        let off = half.iter().zip(&self.midline).filter(|(_, middle)| !**middle);
+        whole.extend(off.map(|(p, _)| Vec3::new(-p.x, p.y, p.z)));
+    }
+}

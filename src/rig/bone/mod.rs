@@ -1,0 +1,154 @@
+//! Bone under the skin: skull, mandible and teeth, carried by the landmarks that the measures place.
+//!
+//! The control meshes are baked from the field of the canonical skull (`author::bone`). A head's bone is that skull under
+//! the map that takes the canonical landmarks to the head's own, kept at least a little way under the skin.
+
+pub mod field;
+mod half;
+pub mod landmarks;
+pub mod teeth;
+mod warp;
+
+pub use field::BoneField;
+pub use half::BoneHalf;
+pub use landmarks::{BoneMesh, LANDMARKS, Landmark, Targets, targets};
+
+use super::implicit::{Implicit, Layer};
+use super::proportions::Proportions;
+use super::{ControlError, Measures};
+use crate::mesh::DedgeMesh;
+use glam::Vec3;
+use warp::Warp;
+
+/// The skull as baked.
+pub const SKULL: &str = include_str!("../../../assets/skull.ron");
+/// The mandible as baked.
+pub const MANDIBLE: &str = include_str!("../../../assets/mandible.ron");
+
+/// Skin over bone at least, head units.
+const LEAST_TISSUE: f32 = 0.22;
+/// Newton steps that keep bone under the skin.
+const STEPS: usize = 3;
+
+/// One bone, immutable.
+#[derive(Clone, Debug)]
+pub struct Bone {
+    half: BoneHalf,
+    mesh: DedgeMesh,
+    warp: Warp,
+}
+
+impl Bone {
+    fn new(text: &str) -> Result<Bone, ControlError> {
+        let half: BoneHalf = ron::from_str(text)?;
+        let mesh = half.mesh().map_err(ControlError::Mesh)?;
+        let warp = Warp::new(half.base.iter().map(|&p| Vec3::from(p)));
+        Ok(Bone { half, mesh, warp })
+    }
+
+    /// Connectivity of the whole mesh.
+    pub fn mesh(&self) -> &DedgeMesh {
+        &self.mesh
+    }
+
+    /// The left half, with the landmarks that are vertices.
+    pub fn half(&self) -> &BoneHalf {
+        &self.half
+    }
+}
+
+/// Skull, mandible and teeth, immutable: one per program.
+#[derive(Clone, Debug)]
+pub struct Bones {
+    /// Cranium and upper jaw.
+    pub skull: Bone,
+    /// Lower jaw.
+    pub mandible: Bone,
+}
+
+/// One head's bones; buffers are made once and written again for every breed. Metres, head's frame.
+#[derive(Clone, Debug, Default)]
+pub struct BonesOfHead {
+    half: Vec<Vec3>,
+    /// Where the landmarks were meant to be, none before the first head.
+    pub targets: Option<Targets<Vec3>>,
+    /// Control positions of the skull.
+    pub skull: Vec<Vec3>,
+    /// Control positions of the mandible.
+    pub mandible: Vec<Vec3>,
+    /// Crowns of the upper teeth: [`teeth::TOOTH_VERTICES`] for each of twenty.
+    pub upper_teeth: Vec<Vec3>,
+    /// Crowns of the lower teeth, twenty-two.
+    pub lower_teeth: Vec<Vec3>,
+}
+
+impl Bones {
+    /// The bones that are part of the program.
+    ///
+    /// # Errors
+    /// Where a baked asset is not one.
+    pub fn embedded() -> Result<Bones, ControlError> {
+        Ok(Bones { skull: Bone::new(SKULL)?, mandible: Bone::new(MANDIBLE)? })
+    }
+
+    /// The bones of one head.
+    pub fn shape(&self, measures: &Measures, proportions: &Proportions, out: &mut BonesOfHead) {
+        let targets = targets(measures, proportions);
+        let list = targets.list();
+        let skin = Implicit::new(proportions);
+        let BonesOfHead { half, targets: meant, skull, mandible, upper_teeth, lower_teeth } = out;
+        *meant = Some(targets);
+        for (bone, whole) in [(&self.skull, skull), (&self.mandible, mandible)] {
+            bone.warp.apply(&list, half);
+            for (p, &middle) in half.iter_mut().zip(&bone.half.midline) {
+                *p = under_skin(*p, proportions, &skin);
+                if middle {
+                    p.x = 0.0;
+                }
+            }
+            bone.half.unfold(half, whole);
+        }
+        teeth::place(&targets, true, upper_teeth);
+        teeth::place(&targets, false, lower_teeth);
+    }
+
+    /// The left landmark, or that in the median plane, on a head's bone: a vertex of the mesh where it is one, which the
+    /// interpolating refinement keeps; where it is none, the constructed point.
+    pub fn landmark(&self, id: &str, head: &BonesOfHead) -> Option<Vec3> {
+        let on = |bone: &Bone, positions: &[Vec3]| {
+            let (_, vertex) = bone.half.landmarks.iter().find(|(known, _)| known == id)?;
+            positions.get(usize::from(*vertex)).copied()
+        };
+        let constructed = || {
+            let k = LANDMARKS.iter().position(|l| l.id == id)?;
+            Some(head.targets.as_ref()?.list()[k])
+        };
+        on(&self.skull, &head.skull).or_else(|| on(&self.mandible, &head.mandible)).or_else(constructed)
+    }
+
+    /// Indices of a jaw's teeth, three for each triangle.
+    pub fn tooth_indices(upper: bool) -> Vec<u32> {
+        let n = if upper { teeth::UPPER.len() } else { teeth::LOWER.len() };
+        let mut indices = Vec::new();
+        for i in 0..2 * n {
+            teeth::indices((i * teeth::TOOTH_VERTICES) as u32, (i >= n) != upper, &mut indices);
+        }
+        indices
+    }
+}
+
+/// The point, or where it comes to lie when the skin is too near.
+fn under_skin(p: Vec3, s: &Proportions, skin: &Implicit) -> Vec3 {
+    let mut q = s.proportional(p);
+    let mut moved = false;
+    for _ in 0..STEPS {
+        let (d, g) = skin.sample(q, Layer::Whole);
+        let over = d + LEAST_TISSUE;
+        if over <= 0.0 {
+            break;
+        }
+        q -= g * (over / g.length_squared().max(0.1)).min(0.6);
+        moved = true;
+    }
+    if moved { s.metres(q) } else { p }
+}

@@ -1,0 +1,215 @@
+//! Forty-two teeth: the adult formula I3/3 C1/1 P4/4 M2/3, each a crown of its own size on the arch of its jaw.
+
+use super::landmarks::Targets;
+use crate::math::ops;
+use glam::{Vec3, vec3};
+
+/// What kind a tooth is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToothKind {
+    /// Cuts.
+    Incisor,
+    /// Holds.
+    Canine,
+    /// Shears.
+    Premolar,
+    /// The shearing pair: the fourth upper premolar and the first lower molar.
+    Carnassial,
+    /// Grinds.
+    Molar,
+}
+
+/// One tooth of the left half.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tooth {
+    /// `I1` to `M2` above, `i1` to `m3` below.
+    pub name: &'static str,
+    /// Its kind.
+    pub kind: ToothKind,
+    /// Crown at a skull of 200 mm, millimetres: along the arch, across it, and its height.
+    pub size: Vec3,
+}
+
+const fn tooth(name: &'static str, kind: ToothKind, along: f32, across: f32, height: f32) -> Tooth {
+    Tooth { name, kind, size: Vec3::new(along, across, height) }
+}
+
+use ToothKind::{Canine, Carnassial, Incisor, Molar, Premolar};
+
+/// The upper left teeth from the middle backwards; sizes are estimates for a mesaticephalic dog of 30 kg.
+pub const UPPER: [Tooth; 10] = [
+    tooth("I1", Incisor, 4.5, 5.0, 7.5),
+    tooth("I2", Incisor, 5.0, 5.5, 8.5),
+    tooth("I3", Incisor, 6.0, 6.5, 11.0),
+    tooth("C", Canine, 10.5, 7.0, 21.0),
+    tooth("P1", Premolar, 6.0, 4.0, 5.5),
+    tooth("P2", Premolar, 11.0, 5.0, 7.5),
+    tooth("P3", Premolar, 13.0, 5.5, 8.5),
+    tooth("P4", Carnassial, 19.0, 9.0, 11.5),
+    tooth("M1", Molar, 13.0, 15.0, 7.5),
+    tooth("M2", Molar, 7.5, 10.5, 4.5),
+];
+/// The lower left teeth likewise.
+pub const LOWER: [Tooth; 11] = [
+    tooth("i1", Incisor, 3.6, 4.5, 6.5),
+    tooth("i2", Incisor, 4.4, 5.0, 7.5),
+    tooth("i3", Incisor, 5.0, 5.5, 8.5),
+    tooth("c", Canine, 10.0, 7.0, 19.5),
+    tooth("p1", Premolar, 5.0, 3.5, 4.5),
+    tooth("p2", Premolar, 9.0, 5.0, 6.5),
+    tooth("p3", Premolar, 10.5, 5.5, 7.5),
+    tooth("p4", Premolar, 12.0, 6.0, 9.0),
+    tooth("m1", Carnassial, 22.0, 8.5, 13.0),
+    tooth("m2", Molar, 9.0, 7.0, 5.5),
+    tooth("m3", Molar, 5.0, 4.5, 3.5),
+];
+
+const SEGMENTS: usize = 14;
+/// Distance from the crown's middle, rim to apex; the first ring is buried in the gum.
+const RINGS: [f32; 7] = [1.0, 1.0, 0.86, 0.66, 0.44, 0.22, 0.08];
+
+/// Vertices of one tooth.
+pub const TOOTH_VERTICES: usize = RINGS.len() * SEGMENTS + 1;
+
+/// Triangles of one tooth, counter-clockwise from outside. One that hangs down is mirrored, and so is one of the right side.
+pub(super) fn indices(first: u32, mirrored: bool, out: &mut Vec<u32>) {
+    let mut add = |[a, b, c]: [u32; 3]| out.extend(if mirrored { [a, c, b] } else { [a, b, c] }.map(|v| first + v));
+    let n = SEGMENTS as u32;
+    for ring in 0..RINGS.len() as u32 - 1 {
+        for s in 0..n {
+            let (a, b) = (ring * n + s, ring * n + (s + 1) % n);
+            add([a, b, b + n]);
+            add([a, b + n, a + n]);
+        }
+    }
+    let last = (RINGS.len() as u32 - 1) * n;
+    (0..n).for_each(|s| add([last + s, last + (s + 1) % n, last + n]));
+}
+
+/// Height of a crown as a part of it, at a place in its outline: `u` along the arch, forwards, `v` across.
+fn crown(kind: ToothKind, u: f32, v: f32) -> f32 {
+    let r = (u * u + v * v).sqrt().min(1.0);
+    let bump = |at: f32, width: f32| ops::exp(-((u - at) / width) * ((u - at) / width));
+    let rim = 1.0 - r * r * r * r;
+    match kind {
+        Incisor => rim * (1.0 - 0.25 * u * u) * (1.0 - 0.35 * r),
+        Canine => ops::powf(1.0 - r, 0.85),
+        Premolar => rim * (0.95 * bump(0.05, 0.34) + 0.34 * bump(-0.7, 0.2) + 0.14) * (1.0 - 0.5 * v.abs()),
+        Carnassial => {
+            rim * (bump(0.12, 0.28) + 0.66 * bump(-0.55, 0.26) + 0.4 * bump(0.75, 0.18)) * (1.0 - 0.45 * v.abs())
+        }
+        Molar => rim * (0.7 + 0.25 * ops::cos(4.8 * u) * (1.0 - v * 0.6)),
+    }
+}
+
+/// The teeth of one jaw of one head: left ones, then their mirror images; `out` gets [`TOOTH_VERTICES`] for each.
+pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
+    out.clear();
+    // Crowns follow the length of the skull.
+    let unit = t.prosthion.distance(t.akrokranion) / 200.0;
+    let (teeth, arch): (&[Tooth], [Vec3; 5]) = if upper {
+        (&UPPER, [t.prosthion, t.incisor, t.canine, t.maxilla, t.upper_last])
+    } else {
+        let side = t.infradentale.lerp(t.lower_canine, 0.6);
+        (
+            &LOWER,
+            [t.infradentale, vec3(side.x, t.infradentale.y, side.z), t.lower_canine, t.lower_carnassial, t.lower_last],
+        )
+    };
+    let down = if upper { -1.0 } else { 1.0 };
+    // Incisors share the front; from the canine on each tooth has its place between the landmarks.
+    let canine = 3;
+    let carnassial = teeth.iter().position(|t| t.kind == Carnassial).unwrap_or(canine);
+    let n = teeth.len();
+    for (i, tooth) in teeth.iter().enumerate() {
+        let size = tooth.size * unit;
+        // Sum of the crowns from one tooth's middle to another's, in front of this one.
+        let run = |from: usize, to: usize| -> f32 {
+            (from..to).map(|k| 0.5 * (teeth[k].size.x + teeth[k + 1].size.x)).sum::<f32>()
+        };
+        let (a, b, share, room) = match i {
+            _ if i < canine => {
+                let front: f32 = teeth[..canine].iter().map(|t| t.size.x).sum();
+                let before: f32 = teeth[..i].iter().map(|t| t.size.x).sum();
+                (arch[0], arch[1], (before + 0.5 * teeth[i].size.x) / (front - 0.5 * teeth[canine - 1].size.x), 1.0)
+            }
+            _ if i <= carnassial => {
+                let room = arch[2].distance(arch[3]) / (run(canine, carnassial) * unit);
+                (arch[2], arch[3], run(canine, i) / run(canine, carnassial), room)
+            }
+            _ => {
+                let room = arch[3].distance(arch[4]) / (run(carnassial, n - 1) * unit);
+                (arch[3], arch[4], run(carnassial, i) / run(carnassial, n - 1), room)
+            }
+        };
+        let at = a.lerp(b, share.min(1.15));
+        // Along the arch towards the front, and outwards.
+        let mut forwards = (a - b).normalize_or(Vec3::Z);
+        if i < canine {
+            forwards = vec3(-1.0, 0.0, 0.25).normalize();
+        }
+        // Where the arch is too short for its premolars they turn, up to across.
+        let turns = i > canine && i < carnassial;
+        let crowded = if turns { room.clamp(0.35, 1.0) } else { 1.0 };
+        let turn = ops::acos(crowded);
+        let up = Vec3::Y * down;
+        let sideways = Vec3::Y.cross(forwards).normalize_or(Vec3::X);
+        let sideways = if sideways.x < 0.0 { -sideways } else { sideways };
+        let (sin, cos) = (ops::sin(turn), ops::cos(turn));
+        let along = forwards * cos + sideways * sin;
+        let across = sideways * cos - forwards * sin;
+        // Teeth that are too many for their place get smaller at last.
+        let fit = if i > canine { (room * 1.25).clamp(0.6, 1.0) } else { 1.0 };
+        let size = vec3(size.x * fit, size.y * fit, size.z);
+        let inwards = match tooth.kind {
+            Incisor => vec3(0.0, 0.0, -0.3 * size.y),
+            _ => -across * (0.42 * size.y),
+        };
+        let root = at + inwards - up * (0.5 * unit);
+        for (ring, &r) in RINGS.iter().enumerate() {
+            for s in 0..SEGMENTS {
+                let angle = core::f32::consts::TAU * s as f32 / SEGMENTS as f32;
+                out.push(
+                    root + point(
+                        tooth.kind,
+                        size,
+                        r * ops::cos(angle),
+                        r * ops::sin(angle),
+                        ring == 0,
+                        along,
+                        across,
+                        up,
+                        upper,
+                    ),
+                );
+            }
+        }
+        out.push(root + point(tooth.kind, size, 0.0, 0.0, false, along, across, up, upper));
+    }
+    for k in 0..out.len() {
+        let p = out[k];
+        out.push(vec3(-p.x, p.y, p.z));
+    }
+}
+
+#[allow(clippy::too_many_arguments, reason = "a frame, a size and a place")]
+fn point(
+    kind: ToothKind,
+    size: Vec3,
+    u: f32,
+    v: f32,
+    buried: bool,
+    along: Vec3,
+    across: Vec3,
+    up: Vec3,
+    upper: bool,
+) -> Vec3 {
+    let height = if buried { -0.35 } else { crown(kind, u, v) };
+    let mut p = along * (0.5 * size.x * u) + across * (0.5 * size.y * v) + up * (size.z * height);
+    if kind == Canine {
+        // The crown leans forwards and curves back; the lower one outwards too.
+        let t = height.max(0.0);
+        p += along * (size.z * (0.20 * t - 0.30 * t * t)) + across * (size.z * if upper { 0.05 } else { 0.14 } * t);
+    }
+    p
+}
