@@ -115,8 +115,13 @@ pub const REFERENCES: &[Reference] = &[
 ];
 
 /// Skull lengths that somebody has measured, mm, single specimens: they bound the estimates, breed means they are not.
-pub const MEASURED_SKULLS: &[(&str, f32)] =
-    &[("bulldog", 170.0), ("chihuahua", 125.0), ("german_shepherd", 249.0), ("great_dane", 267.0), ("pekingese", 117.0)];
+pub const MEASURED_SKULLS: &[(&str, f32)] = &[
+    ("bulldog", 170.0),
+    ("chihuahua", 125.0),
+    ("german_shepherd", 249.0),
+    ("great_dane", 267.0),
+    ("pekingese", 117.0),
+];
 
 /// Skull, cranial and facial index of the classes: recalled, so indices alone are compared, within 5 %.
 pub const CLASSES: &[(&str, [f32; 3])] = &[

@@ -10,6 +10,7 @@ pub struct World {
     /// The table of measures.
     pub table: Arc<ParamTable>,
     /// The rig made for it.
+    #[allow(dead_code)] // not every test file deforms
     pub rig: Arc<Rig>,
     /// Every breed, sorted by id.
     pub breeds: Vec<Breed>,
