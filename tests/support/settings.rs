@@ -10,10 +10,16 @@ pub struct World {
     /// The table of measures.
     pub table: Arc<ParamTable>,
     /// The rig made for it.
+    #[allow(dead_code)] // not every test file deforms
     pub rig: Arc<Rig>,
     /// Every breed, sorted by id.
     pub breeds: Vec<Breed>,
 }
+
+/// Breeds that span the others: what is too dear for every breed takes these, and `LONDRA_SWEEP=all` all.
+#[allow(dead_code)] // not every test file asks
+pub const SPANNING: [&str; 8] =
+    ["beagle", "borzoi", "bulldog", "chihuahua", "dachshund", "german_shepherd", "labrador", "pug"];
 
 /// A setting of the sliders, and words that say which.
 #[allow(dead_code)] // not every test file reads both
@@ -42,6 +48,24 @@ impl World {
     #[allow(dead_code)] // not every test file asks
     pub fn breed(&self, id: &str) -> &Breed {
         self.breeds.iter().find(|b| b.id == id).unwrap_or_else(|| panic!("no breed {id}"))
+    }
+
+    /// The breeds that span the others.
+    #[allow(dead_code)]
+    pub fn spanning(&self) -> impl Iterator<Item = &Breed> {
+        self.breeds.iter().filter(|b| SPANNING.contains(&b.id.as_str()))
+    }
+
+    /// Pairs of breeds to blend: every pair of the spanning breeds, and each breed with the one 1, 8 and 21 places after it
+    /// in the alphabet; with `LONDRA_SWEEP=all` every pair.
+    #[allow(dead_code)]
+    pub fn pairs(&self) -> Vec<[&Breed; 2]> {
+        let n = self.breeds.len();
+        let spans = |i: usize| SPANNING.contains(&self.breeds[i].id.as_str());
+        let near = |i: usize, j: usize| [1, 8, 21].iter().any(|d| (j + d) % n == i || (i + d) % n == j);
+        let all = (0..n).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let taken = all.filter(|&(i, j)| sweeps_all() || near(i, j) || spans(i) && spans(j));
+        taken.map(|(i, j)| [&self.breeds[i], &self.breeds[j]]).collect()
     }
 
     /// Two or three breeds mixed with random weights, then every value moved by up to `jitter` of its range.
