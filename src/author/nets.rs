@@ -5,7 +5,7 @@
 //!
 //! One half is made (x ≥ 0): the median plane runs through the middle of a layer of cells, whose vertices lie in it.
 
-use crate::rig::bone::{BoneField, BoneHalf, LANDMARKS, Landmark};
+use crate::rig::bone::{BoneField, BoneHalf, Landmark};
 use glam::{Vec3, vec3};
 use std::collections::BTreeMap;
 
@@ -189,7 +189,7 @@ fn snap(positions: &mut [Vec3], landmarks: &[&Landmark], size: f32) -> Vec<(Stri
         for (v, p) in positions.iter_mut().enumerate() {
             let reach = (1.0 - p.distance(at - by) / (4.0 * size)).clamp(0.0, 1.0);
             let middle = p.x == 0.0;
-            if v != nearest {
+            if v != nearest && !found.iter().any(|(_, u)| usize::from(*u) == v) {
                 *p += by * (reach * reach * (3.0 - 2.0 * reach));
             }
             if middle {
@@ -199,7 +199,6 @@ fn snap(positions: &mut [Vec3], landmarks: &[&Landmark], size: f32) -> Vec<(Stri
         positions[nearest] = at;
         found.push((landmark.id.to_owned(), nearest as u16));
     }
-    debug_assert!(found.len() <= LANDMARKS.len());
     found
 }
 

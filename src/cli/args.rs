@@ -46,6 +46,8 @@ pub(super) enum Command {
     Export(Export),
     /// Print a hash for each stage of a frame
     Hash(Hash),
+    /// Print what a vet would measure
+    Measure(Measure),
     /// List breeds or parameters
     List(List),
     /// Find every mistake in breed files
@@ -236,6 +238,19 @@ pub(super) struct Hash {
     pub subject: Subject,
     #[command(flatten)]
     pub detail: Detail,
+    #[command(flatten)]
+    pub report: Report,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Lengths in millimetres, taken on the refined bone between its landmarks, and on the skin as on a live dog.\n\
+    Percentiles are among the breeds of the tables in use.\n\n\
+    Examples:\n  londra measure --breed pug\n  londra measure --breed labrador --set facial_length_mm=120 --json"
+)]
+pub(super) struct Measure {
+    #[command(flatten)]
+    pub subject: Subject,
     #[command(flatten)]
     pub report: Report,
 }

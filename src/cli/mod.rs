@@ -11,6 +11,7 @@ mod export;
 mod failure;
 mod hash;
 mod list;
+mod measure;
 mod mesh_picture;
 mod output;
 mod picture;
@@ -55,6 +56,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Sheet(args) => picture::sheet(&args),
         Command::Export(args) => export::run(&args),
         Command::Hash(args) => hash::run(&args),
+        Command::Measure(args) => measure::run(&args),
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Bake(args) => bake::run(&args),

@@ -118,7 +118,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
     let hinge = s.hinge();
 
     // The median profile, in the frame of the proportions (origin at the skin of the nasion).
-    let nasion = vec3(0.0, -TISSUE - 0.45 * (s.stop - 1.9).max(0.0), -0.35);
+    let nasion = vec3(0.0, -TISSUE - 0.45 * (s.stop - 1.9).max(0.0), -0.35 - 0.06 * (s.muz_len - 9.0).clamp(0.0, 4.0));
     let rise = (s.cran_h - 2.0 + 0.5 * s.occiput - nasion.y).clamp(-0.6 * cranium, 0.6 * cranium);
     let akrokranion = nasion + vec3(0.0, rise, -ops::sqrt(cranium * cranium - rise * rise));
     let base = hinge.y;

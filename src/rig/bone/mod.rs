@@ -26,7 +26,7 @@ pub const SKULL: &str = include_str!("../../../assets/skull.ron");
 pub const MANDIBLE: &str = include_str!("../../../assets/mandible.ron");
 
 /// Skin over bone at least, head units.
-const LEAST_TISSUE: f32 = 0.22;
+const LEAST_TISSUE: f32 = 0.2;
 /// Newton steps that keep bone under the skin.
 const STEPS: usize = 3;
 
