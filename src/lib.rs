@@ -16,6 +16,8 @@ pub mod export;
 #[cfg(feature = "head")]
 pub mod frame;
 #[cfg(feature = "head")]
+pub mod measure;
+#[cfg(feature = "head")]
 pub mod rig;
 
 #[cfg(feature = "graphics")]

@@ -5,6 +5,7 @@
 mod args;
 mod bake;
 mod bench;
+mod breed;
 mod check;
 mod control;
 mod export;
@@ -53,6 +54,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::View(args) => view::run(&args),
         Command::Render(args) => picture::render(&args),
         Command::Sheet(args) => picture::sheet(&args),
+        Command::Breed(args) => breed::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Hash(args) => hash::run(&args),
         Command::List(args) => list::run(&args),
