@@ -48,6 +48,8 @@ pub(super) enum Command {
     Export(Export),
     /// Print a hash for each stage of a frame
     Hash(Hash),
+    /// Print every landmark's place, and in a view its pixel and whether it is seen
+    Landmarks(Landmarks),
     /// List breeds or parameters
     List(List),
     /// Find every mistake in breed files
@@ -284,6 +286,37 @@ pub(super) struct Export {
 pub(super) struct Hash {
     #[command(flatten)]
     pub subject: Subject,
+    #[command(flatten)]
+    pub detail: Detail,
+    #[command(flatten)]
+    pub report: Report,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Places are in millimetres in the head's frame: +x the dog's left, +y up, +z out of the nose; the origin lies \
+    midway between the jaw's joints.\n\
+    Pixels are those of 'londra render' with the same view, size, pitch and lens, from the top left corner.\n\n\
+    Examples:\n  \
+    londra landmarks --breed pug\n  \
+    londra landmarks --breed labrador --blend pug=0.3 --json\n  \
+    londra landmarks --breed borzoi --view front --size 800x600"
+)]
+pub(super) struct Landmarks {
+    #[command(flatten)]
+    pub subject: Subject,
+    /// Tell pixels too, in this view: as for render
+    #[arg(long, value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION", allow_hyphen_values = true)]
+    pub view: Option<Direction>,
+    /// Width and height of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = values::size, requires = "view")]
+    pub size: Size,
+    /// How far the nose is carried below the horizontal, degrees; each view has its own habit
+    #[arg(long, value_name = "DEG", value_parser = values::pitch, allow_hyphen_values = true, requires = "view")]
+    pub pitch: Option<f32>,
+    /// Focal length in millimetres on 36 x 24, or ortho; without it, 85
+    #[arg(long, value_name = "MM|ortho", requires = "view")]
+    pub lens: Option<Lens>,
     #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]

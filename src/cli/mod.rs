@@ -11,6 +11,7 @@ mod control;
 mod export;
 mod failure;
 mod hash;
+mod landmarks;
 mod list;
 mod mesh_picture;
 mod output;
@@ -57,6 +58,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Breed(args) => breed::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Hash(args) => hash::run(&args),
+        Command::Landmarks(args) => landmarks::run(&args),
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Bake(args) => bake::run(&args),

@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub const MAY_FOLD: [&str; 10] = ["mu.", "ml.", "a0.", "a1.", "a2.", "a3.", "a4.", "a5.", "s.10.9", "s.8.2"];
 
 /// Cosine of 170 degrees between the normals of an edge's two faces.
-const FOLDED: f32 = -0.984_807_75;
+const FOLDED: f32 = -0.984_807_7;
 
 /// Finds folds; made once, asked for any number of heads.
 pub struct Folds {
