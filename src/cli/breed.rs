@@ -104,15 +104,11 @@ fn each(
     let mut seeds = Rng::new(seed);
     let mut one = |k: u32| {
         let mut rng = Rng::new(seeds.next_u64());
-        for _ in 1..MOST_DRAWS {
-            let dog = dog(k, &mut rng)?;
-            if folds.count(&dog.values) == 0 {
-                return Ok(dog);
-            }
+        let (dog, is_unfolded) = folds.unfolded(MOST_DRAWS, || dog(k, &mut rng))?;
+        if !is_unfolded {
+            output::message(&format!("{}: its skin folds onto itself, as that of others drawn in its place", dog.id));
         }
-        let last = dog(k, &mut rng)?;
-        output::message(&format!("{}: its skin folds onto itself, as that of the {MOST_DRAWS} before it", last.id));
-        Ok(last)
+        Ok(dog)
     };
     (1..=n).map(&mut one).collect()
 }

@@ -1,5 +1,6 @@
 //! Whether a head is one: no edge of the skin at level 1 folds beyond 170 degrees where none may.
 
+use crate::anatomy::Breed;
 use crate::mesh::{DedgeMesh, MeshError};
 use crate::rig::{Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
@@ -64,6 +65,23 @@ impl Folds {
         };
         let normals: Vec<Vec3> = (0..skin.indices.len() as u32 / 3).map(normal).collect();
         self.edges.iter().filter(|[f, g]| normals[*f as usize].dot(normals[*g as usize]) < FOLDED).count()
+    }
+
+    /// The first of at most `most` dogs (at least one is drawn) whose skin does not fold, else the last; and whether it is
+    /// without folds.
+    ///
+    /// # Errors
+    /// The first error of `draw`.
+    pub fn unfolded<E>(&mut self, most: u32, mut draw: impl FnMut() -> Result<Breed, E>) -> Result<(Breed, bool), E> {
+        for _ in 1..most {
+            let dog = draw()?;
+            if self.count(&dog.values) == 0 {
+                return Ok((dog, true));
+            }
+        }
+        let last = draw()?;
+        let is_unfolded = self.count(&last.values) == 0;
+        Ok((last, is_unfolded))
     }
 }
 
