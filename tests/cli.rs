@@ -245,9 +245,15 @@ fn breeding_that_makes_no_sense_is_refused_and_writes_nothing() {
     let file = folder.path().join("all.ron");
     refused(&["breed", "--random", "2", "-o", text(&file)], 2, &["2 dogs are 2 files"]);
     refused(&["breed", "--random", "-o", "-", "--json"], 2, &["-o -"]);
-    let nowhere = folder.path().join("nowhere");
-    refused(&["breed", "--random", "2", "-o", text(&nowhere)], 1, &["nowhere: is no folder"]);
+    let nowhere = folder.path().join("nowhere").join("dogs");
+    refused(&["breed", "--random", "2", "-o", text(&nowhere)], 1, &["dogs: the folder cannot be made"]);
     assert!(names_in(folder.path()).is_empty());
+    let plain = folder.path().join("plain");
+    std::fs::write(&plain, "x").unwrap();
+    refused(&["breed", "--random", "2", "-o", text(&plain)], 1, &["plain: is no folder"]);
+    let new = folder.path().join("new");
+    done(&["breed", "--random", "2", "-o", text(&new)]);
+    assert_eq!(names_in(&new), ["random_0_1.ron", "random_0_2.ron"]);
 }
 
 // ---- landmarks ----

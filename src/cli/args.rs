@@ -253,7 +253,7 @@ pub(super) struct Breed {
     /// Give every dog this value, in the unit its id ends in; may be repeated
     #[arg(long = "set", value_name = "ID=VALUE", value_parser = values::setting)]
     pub set: Vec<Setting>,
-    /// The folder to write into; for one dog also a file that ends in .ron, - for stdout
+    /// The folder to write into, made if need be; for one dog also a file that ends in .ron, - for stdout
     #[arg(short, long, value_name = "FOLDER|FILE.ron", required_unless_present = "json")]
     pub output: Option<PathBuf>,
     #[command(flatten)]

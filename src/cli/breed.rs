@@ -36,8 +36,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             return Err(Failure::Use(format!("a litter has two parents, not {n}: londra breed A B --litter 6")));
         }
     };
-    // Nothing is written before every place is known to be right.
+    // Nothing is written before every dog is made and every place is known to be right.
     let paths = args.output.as_deref().map(|target| places(target, &dogs)).transpose()?;
+    if let Some(folder) = args.output.as_deref().filter(|target| paths.iter().flatten().any(|path| path != target)) {
+        make_folder(folder)?;
+    }
     for (path, dog) in paths.iter().flatten().zip(&dogs) {
         let text = save_breed(&rigs.table, dog);
         if output::is_stdout(path) {
@@ -135,10 +138,19 @@ fn places(target: &Path, dogs: &[Breed]) -> Result<Vec<PathBuf>, Failure> {
         let (n, target) = (dogs.len(), target.display());
         return Err(Failure::Use(format!("{n} dogs are {n} files: -o {target} should be a folder")));
     }
-    if !target.is_dir() {
-        return Err(Failure::work(format!("{}: is no folder; make it, or name another with -o", target.display())));
+    if target.exists() && !target.is_dir() {
+        return Err(Failure::work(format!("{}: is no folder; name another with -o", target.display())));
     }
     Ok(dogs.iter().map(|dog| target.join(format!("{}.ron", dog.id))).collect())
+}
+
+/// Makes a folder where there is none yet; the one that it stands in must be there.
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    std::fs::create_dir(folder)
+        .map_err(|error| Failure::work(format!("{}: the folder cannot be made: {error}", folder.display())))
 }
 
 /// Values in the units of files, by id.
