@@ -41,9 +41,21 @@ fn help_and_version_go_to_stdout() {
     assert_eq!(done(&["--version"]).stdout, format!("londra {}\n", env!("CARGO_PKG_VERSION")));
     let help = done(&["--help"]);
     assert_eq!(help.stderr, "");
-    for command in
-        ["view", "render", "sheet", "export", "hash", "list", "check", "bake", "subdivide", "bench", "similarity"]
-    {
+    for command in [
+        "view",
+        "render",
+        "sheet",
+        "breed",
+        "export",
+        "hash",
+        "landmarks",
+        "list",
+        "check",
+        "bake",
+        "subdivide",
+        "bench",
+        "similarity",
+    ] {
         assert!(help.stdout.contains(command));
         let own = done(&[command, "--help"]);
         assert!(own.stdout.contains(&format!("londra {command}")), "{command} shows an example");
@@ -122,6 +134,165 @@ fn values_that_make_no_sense_are_wrong_use() {
     let run = londra(&["hash", "--breed", "pug", "--blend", "borzoi=0.6", "--blend", "beagle=0.6"]);
     assert_eq!(run.code, 2, "{}", run.stderr);
     assert!(run.stderr.contains("sum to 1.2"), "{}", run.stderr);
+}
+
+#[test]
+fn any_number_of_breeds_are_mixed() {
+    let values = |blend: &[&str]| -> Vec<f64> {
+        let mut args = vec!["landmarks", "--breed", "pug", "--level", "0", "--json"];
+        blend.iter().for_each(|share| args.extend(["--blend", share]));
+        let all: Vec<Value> = serde_json::from_str(&done(&args).stdout).unwrap();
+        all.iter().flat_map(|l| l["position_mm"].as_array().unwrap()).map(|x| x.as_f64().unwrap()).collect()
+    };
+    let ids = ["beagle", "borzoi", "bulldog", "chihuahua", "dachshund", "german_shepherd", "labrador"];
+    let share = |id: &str, weight: &str| format!("{id}={weight}");
+    let eighths: Vec<String> = ids.iter().map(|id| share(id, "0.125")).collect();
+    let eighths: Vec<&str> = eighths.iter().map(String::as_str).collect();
+    let all = values(&eighths);
+    let mut turned = eighths.clone();
+    turned.reverse();
+    let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(far(&all, &values(&turned)) < 0.01, "the order of shares does not count");
+    assert!(far(&all, &values(&eighths[1..])) > 0.5, "what is left of 1 is the breed's own");
+    // A hundred hundredths miss 1 by their roundings, and yet leave nothing of the pug.
+    let hundredths = vec!["borzoi=0.01"; 100];
+    let borzoi = done(&["hash", "--breed", "borzoi", "--level", "0"]).stdout;
+    let mut args = vec!["hash", "--breed", "pug", "--level", "0"];
+    hundredths.iter().for_each(|share| args.extend(["--blend", share]));
+    assert_eq!(done(&args).stdout, borzoi);
+}
+
+// ---- breed ----
+
+#[test]
+fn a_litter_is_files_that_check_and_hash_accept_the_same_in_every_run() {
+    let (first, second) = (folder(), folder());
+    let litter = |folder: &TempDir, n: &str| {
+        done(&["breed", "pug", "borzoi", "--litter", n, "--seed", "3", "-o", text(folder.path())]).stdout
+    };
+    let paths = litter(&first, "6");
+    let names: Vec<String> = (1..=6).map(|k| format!("pug_x_borzoi_{k}.ron")).collect();
+    assert_eq!(names_in(first.path()), names);
+    let expected: String = names.iter().map(|name| format!("{}\n", first.path().join(name).display())).collect();
+    assert_eq!(paths, expected);
+    let mut check = vec!["check"];
+    check.extend(paths.lines());
+    done(&check);
+    // The first two of a litter of six are a litter of two.
+    litter(&second, "2");
+    let bytes = |folder: &TempDir, name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(names[..2].iter().all(|name| bytes(&first, name) == bytes(&second, name)));
+    assert_ne!(bytes(&first, &names[0]), bytes(&first, &names[1]));
+    let hash = |breed: &str| done(&["hash", "--breed", breed, "--level", "0"]).stdout;
+    assert_ne!(hash(paths.lines().next().unwrap()), hash("pug"));
+}
+
+#[test]
+fn a_random_dog_keeps_what_is_locked_and_set() {
+    let folder = folder();
+    let (one, out) = (folder.path().join("one.ron"), text(folder.path()).to_owned());
+    assert_eq!(done(&["breed", "--random", "--seed", "7", "-o", text(&one)]).stdout, format!("{}\n", one.display()));
+    done(&["breed", "--random", "2", "--seed", "7", "-o", &out]);
+    assert_eq!(names_in(folder.path()), ["one.ron", "random_7_1.ron", "random_7_2.ron"]);
+    assert_eq!(std::fs::read(&one).unwrap(), std::fs::read(folder.path().join("random_7_1.ron")).unwrap());
+    let on_stdout = done(&["breed", "--random", "--seed", "7", "-o", "-"]).stdout;
+    assert_eq!(on_stdout, std::fs::read_to_string(&one).unwrap());
+
+    let dogs = |more: &[&str]| -> Vec<Value> {
+        let args = [&["breed", "--random", "3", "--seed", "1", "--json"], more].concat();
+        serde_json::from_str(&done(&args).stdout).unwrap()
+    };
+    let free = dogs(&[]);
+    assert!(free.iter().all(|d| d["output"].is_null() && d["values"]["ear_length_mm"].is_number()));
+    let locked = dogs(&["--base", "pug", "--lock", "ears", "--lock", "stop_angle_deg", "--set", "facial_length_mm=40"]);
+    for dog in &locked {
+        let values = &dog["values"];
+        assert_eq!(values["ear_length_mm"], 42.5);
+        assert_eq!(values["stop_angle_deg"], 108.0);
+        assert_eq!(values["facial_length_mm"], 40.0);
+    }
+    assert_ne!(locked[0]["values"]["cranial_length_mm"], locked[1]["values"]["cranial_length_mm"]);
+    let args = ["breed", "pug", "borzoi", "--litter", "3", "--base", "beagle", "--lock", "nose", "--json"];
+    let puppies: Vec<Value> = serde_json::from_str(&done(&args).stdout).unwrap();
+    let beagle = std::fs::read_to_string(rig("breeds/beagle.ron")).unwrap();
+    for puppy in &puppies {
+        let width = puppy["values"]["nose_width_mm"].as_f64().unwrap();
+        assert!(beagle.contains(&format!("\"nose_width_mm\": {width:?}")), "{width}");
+    }
+}
+
+#[test]
+fn breeding_that_makes_no_sense_is_refused_and_writes_nothing() {
+    let folder = folder();
+    let out = text(folder.path());
+    let with = |args: &[&str], words: &[&str]| {
+        refused(&[&["breed"], args, &["-o", out]].concat(), 2, words);
+    };
+    with(&[], &["two parents", "--random"]);
+    with(&["pug", "--litter", "2"], &["two parents, not 1"]);
+    with(&["pug", "pug", "pug", "--litter", "2"], &["two parents, not 3"]);
+    with(&["pug", "borzoi"], &["--litter 6"]);
+    with(&["pug", "borzzoi", "--litter", "2"], &["unknown breed 'borzzoi'", "did you mean borzoi?"]);
+    with(&["pug", "borzoi", "--litter", "0"], &["1..=1000"]);
+    with(&["pug", "borzoi", "--litter", "1000000"], &["1..=1000"]);
+    with(&["--random", "0"], &["1..=1000"]);
+    with(&["pug", "borzoi", "--litter", "2", "--random"], &["cannot be used with"]);
+    with(&["--random", "--lock", "ears"], &["--base"]);
+    with(&["--random", "--base", "pug", "--lock", "eers"], &["did you mean Ears", "Lips and jaw"]);
+    with(&["--random", "--set", "ear_cup=9"], &["ear_cup is 9, allowed 0 to 0.9"]);
+    with(&["--random", "--seed", "x"], &["--seed"]);
+    refused(&["breed", "pug", "borzoi", "--litter", "2"], 2, &["--output"]);
+    let file = folder.path().join("all.ron");
+    refused(&["breed", "--random", "2", "-o", text(&file)], 2, &["2 dogs are 2 files"]);
+    refused(&["breed", "--random", "-o", "-", "--json"], 2, &["-o -"]);
+    let nowhere = folder.path().join("nowhere").join("dogs");
+    refused(&["breed", "--random", "2", "-o", text(&nowhere)], 1, &["dogs: the folder cannot be made"]);
+    assert!(names_in(folder.path()).is_empty());
+    let plain = folder.path().join("plain");
+    std::fs::write(&plain, "x").unwrap();
+    refused(&["breed", "--random", "2", "-o", text(&plain)], 1, &["plain: is no folder"]);
+    let new = folder.path().join("new");
+    done(&["breed", "--random", "2", "-o", text(&new)]);
+    assert_eq!(names_in(&new), ["random_0_1.ron", "random_0_2.ron"]);
+}
+
+// ---- landmarks ----
+
+#[test]
+fn landmarks_are_a_table_for_people_and_an_array_for_programs() {
+    let all: Vec<Value> =
+        serde_json::from_str(&done(&["landmarks", "--breed", "labrador", "--level", "2", "--json"]).stdout).unwrap();
+    let table = done(&["landmarks", "--breed", "labrador", "--level", "2"]).stdout;
+    assert_eq!(table.lines().count(), all.len());
+    for (line, landmark) in table.lines().zip(&all) {
+        let word = |key: &str| landmark[key].as_str().unwrap().to_owned();
+        assert!(line.starts_with(&word("id")) && line.ends_with(&word("name")), "{line}");
+        assert_eq!(word("layer"), "skin");
+        assert_eq!(landmark["position_mm"].as_array().unwrap().len(), 3);
+        assert!(landmark["pixel"].is_null() && landmark["visible"].is_null());
+    }
+    let set = done(&["landmarks", "--breed", "labrador", "--level", "2", "--set", "facial_length_mm=60"]).stdout;
+    assert_ne!(set, table);
+    refused(&["landmarks", "--breed", "labrador", "--size", "10x10"], 2, &["--view"]);
+    refused(&["landmarks", "--breed", "labrador", "--view", "behind"], 2, &["is no view"]);
+    refused(&["landmarks"], 2, &["--breed"]);
+}
+
+#[test]
+fn a_front_view_shows_the_nose_in_the_middle_and_not_the_occiput() {
+    let args = ["landmarks", "--breed", "labrador", "--level", "2", "--view", "front", "--size", "400x300", "--json"];
+    let all: Vec<Value> = serde_json::from_str(&done(&args).stdout).unwrap();
+    let of = |id: &str, side: &str| all.iter().find(|l| l["id"] == id && l["side"] == side).unwrap();
+    let pixel = |l: &Value| [0, 1].map(|i| l["pixel"][i].as_f64().unwrap());
+    assert_eq!((&of("K01", "M")["visible"], &of("K25", "M")["visible"]), (&Value::Bool(true), &Value::Bool(false)));
+    assert!((pixel(of("K01", "M"))[0] - 200.0).abs() < 0.02);
+    for left in all.iter().filter(|l| l["side"] == "L") {
+        let right = of(left["id"].as_str().unwrap(), "R");
+        let ([a, b], [c, d]) = (pixel(left), pixel(right));
+        assert!((a + c - 400.0).abs() < 0.05 && (b - d).abs() < 0.05, "{left} {right}");
+        // The dog's left is on the right of its picture.
+        assert!(a > c && left["visible"] == right["visible"], "{left} {right}");
+    }
 }
 
 // ---- list ----

@@ -118,6 +118,8 @@ fn material_name(material: Material) -> &'static str {
         Material::Mouth => "mouth",
         Material::Eye => "eye",
         Material::Cap => "neck_cap",
+        Material::Bone => "bone",
+        Material::Tooth => "tooth",
     }
 }
 

@@ -187,6 +187,25 @@ fn choosing_a_breed_can_be_undone() {
     assert_eq!(*harness.state().breed(), first);
 }
 
+#[test]
+fn a_random_dog_is_shown_keeps_what_is_ticked_and_can_be_undone() {
+    let mut harness = harness();
+    let first = harness.state().breed().clone();
+    harness.state_mut().chance.seed = 5;
+    harness.state_mut().chance.kept.insert("Ears".into());
+    harness.get_by_label("Random dog").click();
+    harness.run();
+    let state = harness.state();
+    let row = |id: &str| state.table.index_of(id).unwrap();
+    let (ear, face) = (row("ear_length_mm"), row("facial_length_mm"));
+    assert_eq!((state.chance.seed, state.breed().label.as_str()), (6, "Random 5-1"));
+    assert_eq!(state.breed().values[ear], first.values[ear]);
+    assert_ne!(state.breed().values[face], first.values[face]);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run();
+    assert_eq!(*harness.state().breed(), first);
+}
+
 /// Changes a measure and presses Ctrl+Q.
 fn asked_to_leave() -> Harness<'static, EditorState> {
     let mut harness = harness();

@@ -4,14 +4,17 @@
 //!   manual. A measure is named by an id that ends in its unit; inside, every value is in metres, radians or a pure number.
 //! - [`Breed`] has a value for each row of the table and a [`Look`]; [`Breed::blend`] mixes breeds by mixing values.
 //! - [`load_breed`] and [`save_breed`] turn text into a breed and back, exactly. No function here touches the file system.
+//! - [`Space`] knows how breeds differ and draws random dogs; [`cross`] has puppies of two; [`Locks`] say what is kept.
 //! - [`library`] holds the table and the breeds that are part of the program.
 
 mod breed;
 pub mod colour;
 mod file;
 pub mod library;
+mod litter;
 mod load;
 mod locate;
+mod locks;
 mod look;
 mod nearest;
 mod param;
@@ -19,15 +22,19 @@ mod problem;
 mod read;
 mod region;
 mod save;
+mod space;
 mod table;
 
 pub use breed::Breed;
+pub use litter::{INHERITED_WHOLE, cross};
 pub use load::load_breed;
 pub use locate::Place;
+pub use locks::{Locks, UnknownLock};
 pub use look::{Look, Mark};
 pub use nearest::nearest;
 pub use param::{Follow, ParamSpec, Unit};
 pub use problem::{LoadErrors, Problem, ProblemKind};
 pub use region::Region;
 pub use save::save_breed;
+pub use space::{Space, SpaceError};
 pub use table::ParamTable;

@@ -4,6 +4,7 @@
 //! changes of it, `turn` makes one picture, `run` owns the window, the device and the file system.
 
 mod camera_control;
+mod chance;
 mod dialog;
 pub mod disk;
 pub mod files;
@@ -18,6 +19,7 @@ mod state;
 mod turn;
 mod watch;
 
+pub use chance::Chance;
 pub use measure::{Measured, measure};
 pub use run::{AppError, Launch, run};
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};

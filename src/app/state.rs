@@ -1,5 +1,6 @@
 //! What is edited and how it is shown; without a window, so that a test can drive it.
 
+use super::chance::Chance;
 use super::history::History;
 use crate::anatomy::{Breed, ParamTable};
 use crate::frame::Layers;
@@ -152,6 +153,8 @@ pub struct EditorState {
     pub on_card: bool,
     /// Behind the head.
     pub background: Background,
+    /// What the next random dog depends on.
+    pub chance: Chance,
     /// What is looked for among the measures.
     pub search: String,
     /// Show only measures that were changed.
@@ -194,6 +197,7 @@ impl EditorState {
             light_turn: 0.0,
             on_card: false,
             background: Background::default(),
+            chance: Chance::default(),
             search: String::new(),
             only_changed: false,
             shows_keys: false,
@@ -423,6 +427,7 @@ impl EditorState {
     pub fn table_reloaded(&mut self, table: Arc<ParamTable>, breeds: Vec<Breed>, document: Document) {
         self.table = table;
         self.breeds = breeds;
+        self.chance.forget_table();
         // Steps of the old table count other rows.
         self.history = History::default();
         self.document = document;

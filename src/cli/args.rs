@@ -24,6 +24,7 @@ pub(super) const MOST_LEVEL: i64 = 5;
         londra render --breed pug -o pug.png\n  \
         londra render --breed labrador --blend pug=0.3 --set stop_angle_deg=50 --view side -o mix.png\n  \
         londra export --breed borzoi -o borzoi.glb\n  \
+        londra breed pug borzoi --litter 6 -o puppies\n  \
         londra sheet -o sheet.png\n  \
         londra subdivide cube.obj -o smooth.ply --scheme loop --level 3\n\n\
         'londra COMMAND --help' has more."
@@ -42,12 +43,16 @@ pub(super) enum Command {
     Render(Render),
     /// Draw a contact sheet of breeds as PNG
     Sheet(Sheet),
+    /// Have puppies of two dogs, or random dogs, as breed files
+    Breed(Breed),
     /// Write a head as binary glTF
     Export(Export),
     /// Print a hash for each stage of a frame
     Hash(Hash),
     /// Print what a vet would measure
     Measure(Measure),
+    /// Print every landmark's place, and in a view its pixel and whether it is seen
+    Landmarks(Landmarks),
     /// List breeds or parameters
     List(List),
     /// Find every mistake in breed files
@@ -214,6 +219,58 @@ pub(super) struct Sheet {
 pub(super) type Views = std::vec::Vec<Direction>;
 
 #[derive(Args, Debug)]
+#[command(
+    after_help = "Puppies (all of them grown) have each measure between their parents or a little beyond; how the ears are \
+    carried, the coat and the iris come whole from one parent.\n\
+    Random dogs differ as the breeds do, and each has the coat of one of them.\n\
+    What --lock names stays as in --base (without it, as in the first parent), what --set names has that value; the rest of \
+    a random dog goes with that.\n\
+    The files are named A_x_B_1.ron and random_SEED_1.ron. The same words give the same bytes.\n\n\
+    Examples:\n  \
+    londra breed pug borzoi --litter 6 --seed 3 -o puppies\n  \
+    londra breed --random --seed 7 -o dog.ron\n  \
+    londra breed --random 12 --base beagle --lock ears --lock stop_angle_deg -o dogs\n  \
+    londra breed --random 3 --set facial_length_mm=40 --json"
+)]
+pub(super) struct Breed {
+    /// The two parents: breeds by name, or files that end in .ron
+    #[arg(value_name = "A B", conflicts_with = "random")]
+    pub parents: Vec<String>,
+    /// How many puppies, 1 to 1000
+    #[arg(long, value_name = "N", conflicts_with = "random", value_parser = clap::value_parser!(u32).range(1..=MOST_DOGS))]
+    pub litter: Option<u32>,
+    /// Random dogs instead of puppies; how many, 1 to 1000
+    #[arg(
+        long,
+        value_name = "N",
+        num_args = 0..=1,
+        default_missing_value = "1",
+        value_parser = clap::value_parser!(u32).range(1..=MOST_DOGS)
+    )]
+    pub random: Option<u32>,
+    /// What chance begins with; the same seed gives the same dogs
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Keep a measure, a group such as ears or lips-and-jaw, or the coat; may be repeated
+    #[arg(long, value_name = "ID|GROUP|coat")]
+    pub lock: Vec<String>,
+    /// The dog that locked values are taken from
+    #[arg(long, value_name = "NAME|FILE.ron")]
+    pub base: Option<String>,
+    /// Give every dog this value, in the unit its id ends in; may be repeated
+    #[arg(long = "set", value_name = "ID=VALUE", value_parser = values::setting)]
+    pub set: Vec<Setting>,
+    /// The folder to write into, made if need be; for one dog also a file that ends in .ron, - for stdout
+    #[arg(short, long, value_name = "FOLDER|FILE.ron", required_unless_present = "json")]
+    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub report: Report,
+}
+
+/// How many dogs are made at a time.
+const MOST_DOGS: i64 = 1000;
+
+#[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     londra export --breed pug -o pug.glb\n  \
     londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
@@ -251,6 +308,37 @@ pub(super) struct Hash {
 pub(super) struct Measure {
     #[command(flatten)]
     pub subject: Subject,
+    #[command(flatten)]
+    pub report: Report,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Places are in millimetres in the head's frame: +x the dog's left, +y up, +z out of the nose; the origin lies \
+    midway between the jaw's joints.\n\
+    Pixels are those of 'londra render' with the same view, size, pitch and lens, from the top left corner.\n\n\
+    Examples:\n  \
+    londra landmarks --breed pug\n  \
+    londra landmarks --breed labrador --blend pug=0.3 --json\n  \
+    londra landmarks --breed borzoi --view front --size 800x600"
+)]
+pub(super) struct Landmarks {
+    #[command(flatten)]
+    pub subject: Subject,
+    /// Tell pixels too, in this view: as for render
+    #[arg(long, value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION", allow_hyphen_values = true)]
+    pub view: Option<Direction>,
+    /// Width and height of the picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = values::size, requires = "view")]
+    pub size: Size,
+    /// How far the nose is carried below the horizontal, degrees; each view has its own habit
+    #[arg(long, value_name = "DEG", value_parser = values::pitch, allow_hyphen_values = true, requires = "view")]
+    pub pitch: Option<f32>,
+    /// Focal length in millimetres on 36 x 24, or ortho; without it, 85
+    #[arg(long, value_name = "MM|ortho", requires = "view")]
+    pub lens: Option<Lens>,
+    #[command(flatten)]
+    pub detail: Detail,
     #[command(flatten)]
     pub report: Report,
 }

@@ -5,11 +5,13 @@
 mod args;
 mod bake;
 mod bench;
+mod breed;
 mod check;
 mod control;
 mod export;
 mod failure;
 mod hash;
+mod landmarks;
 mod list;
 mod measure;
 mod mesh_picture;
@@ -54,9 +56,11 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::View(args) => view::run(&args),
         Command::Render(args) => picture::render(&args),
         Command::Sheet(args) => picture::sheet(&args),
+        Command::Breed(args) => breed::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Hash(args) => hash::run(&args),
         Command::Measure(args) => measure::run(&args),
+        Command::Landmarks(args) => landmarks::run(&args),
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Bake(args) => bake::run(&args),

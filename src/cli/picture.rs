@@ -4,7 +4,8 @@ use super::args::{Render, Scene, Sheet as SheetArgs};
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::anatomy::Breed;
-use crate::render::{Background, Camera, Drawing, Gpu, Offscreen, Picture, Sheet};
+use crate::frame::Frame;
+use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Sheet, View};
 use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
@@ -22,9 +23,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
 
-    let mut camera = Camera::at(args.view, args.scene.pitch, args.scene.lens);
-    let [width, height] = args.size;
-    camera.fit(frame.parts.iter().flat_map(|p| p.positions), width as f32 / height as f32, MARGIN);
+    let camera = camera(&frame, args.view, args.scene.pitch, args.scene.lens, args.size);
     let drawing =
         Drawing { background: background(&args.scene), skin_opacity: args.scene.layers.skin, ..Drawing::new(camera) };
     let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
@@ -33,6 +32,19 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
     });
     write(args.target.output.as_path(), args.target.report.json, &picture, facts)
+}
+
+/// The camera of a picture of one head, which it fills but for a margin.
+pub(super) fn camera(
+    frame: &Frame<'_>,
+    view: View,
+    pitch: Option<f32>,
+    lens: Lens,
+    [width, height]: [u32; 2],
+) -> Camera {
+    let mut camera = Camera::at(view, pitch, lens);
+    camera.fit(frame.parts.iter().flat_map(|p| p.positions), width as f32 / height as f32, MARGIN);
+    camera
 }
 
 /// Draws many heads in many views.

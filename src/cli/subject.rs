@@ -16,12 +16,15 @@ pub(super) fn breed(rigs: &Rigs, word: &str, changes: &Changes) -> Result<Breed,
         .iter()
         .map(|share| Ok((rigs.breed(&share.breed)?, share.weight)))
         .collect::<Result<_, Failure>>()?;
-    let sum: f32 = others.iter().map(|(_, weight)| weight).sum();
-    // Weights such as 0.1 + 0.2 + 0.7 may pass 1 by a rounding.
-    if sum > 1.0 + 1e-6 {
+    let sum: f64 = others.iter().map(|(_, weight)| f64::from(*weight)).sum();
+    let left = 1.0 - sum;
+    // Weights such as 0.1 + 0.2 + 0.7 may pass 1, or miss it, by their roundings.
+    let rounding = 1e-6;
+    if left < -rounding {
+        let sum = sum as f32;
         return Err(Failure::Use(format!("the weights of --blend sum to {sum}, at most 1 is there to share")));
     }
-    let mut parts = vec![(&base, (1.0 - sum).max(0.0))];
+    let mut parts = vec![(&base, if left > rounding { left as f32 } else { 0.0 })];
     parts.extend(others.iter().map(|(breed, weight)| (breed, *weight)));
     let mut breed = Breed::blend(&rigs.table, &parts);
     for setting in &changes.set {
@@ -30,7 +33,8 @@ pub(super) fn breed(rigs: &Rigs, word: &str, changes: &Changes) -> Result<Breed,
     Ok(breed)
 }
 
-fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<(), Failure> {
+/// Sets a measure in the unit its id ends in, and gives its row.
+pub(super) fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<usize, Failure> {
     let Some(index) = table.index_of(id) else {
         let near = values::did_you_mean(&table.nearest(id));
         return Err(Failure::Use(format!("unknown parameter '{id}'{near}; 'londra list parameters' names them all")));
@@ -40,7 +44,7 @@ fn set(table: &ParamTable, breed: &mut Breed, id: &str, value: f64) -> Result<()
         return Err(Failure::Use(format!("{id} is {value}, allowed {} to {}", spec.min, spec.max)));
     }
     breed.set_value(table, index, spec.to_si(value));
-    Ok(())
+    Ok(index)
 }
 
 /// A pipeline for the table of the rigs.

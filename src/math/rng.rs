@@ -2,6 +2,8 @@
 //!
 //! SplitMix64, after Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators".
 
+use super::ops;
+
 /// A stream of numbers that depends on the seed and on nothing else.
 #[derive(Clone, Debug)]
 pub struct Rng(u64);
@@ -41,6 +43,14 @@ impl Rng {
         low + (high - low) * self.unit_f32()
     }
 
+    /// Normally distributed with mean 0 and variance 1, between -8.6 and 8.6; after Box and Muller 1958, "A note on the
+    /// generation of random normal deviates", of whose two numbers the first is taken.
+    pub fn normal(&mut self) -> f64 {
+        // One less what is below one is above zero, so that its logarithm is finite.
+        let radius = ops::sqrt(-2.0 * ops::ln(1.0 - self.unit_f64()));
+        radius * ops::cos(std::f64::consts::TAU * self.unit_f64())
+    }
+
     /// Evenly spread over 0 (inclusive) to `n` (exclusive); 0 where `n` is 0. The bias is below n / 2^64.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.next_u64()) * n as u128) >> 64) as usize
@@ -69,5 +79,22 @@ mod tests {
             assert!(rng.below(5) < 5);
         }
         assert_eq!(rng.below(0), 0);
+    }
+
+    #[test]
+    fn normal_deviates_have_another_mean_variance_or_kurtosis() {
+        let mut rng = Rng::new(11);
+        const N: usize = 100_000;
+        let mut moments = [0.0; 3];
+        for _ in 0..N {
+            let x = rng.normal();
+            assert!(x.abs() < 8.6);
+            for (sum, power) in moments.iter_mut().zip([x, x * x, x * x * x * x]) {
+                *sum += power / N as f64;
+            }
+        }
+        let [mean, variance, fourth] = moments;
+        // Four standard errors each.
+        assert!(mean.abs() < 0.013 && (variance - 1.0).abs() < 0.018 && (fourth - 3.0).abs() < 0.13, "{moments:?}");
     }
 }

@@ -8,12 +8,14 @@ pub mod deform;
 mod flow;
 pub mod handles;
 pub mod implicit;
+mod landmarks;
 mod lanes;
 mod primitives;
 mod proportions;
 
 pub use control::{ControlError, HalfMesh, HalfRings};
 pub use handles::Handles;
+pub use landmarks::{Place, SkinLandmark};
 pub use proportions::{EarProportions, Measures, Proportions};
 
 use crate::anatomy::{Breed, ParamTable};

@@ -49,6 +49,38 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             ui.end_row();
         }
     });
+    chance(state, ui);
+}
+
+/// Random dogs: the button, the seed, what is kept of the dog that is shown.
+fn chance(state: &mut EditorState, ui: &mut egui::Ui) {
+    ui.horizontal(|ui| {
+        let button = ui.button("Random dog").on_hover_text("A dog that differs from the others as breeds do");
+        let label = ui.label("Seed");
+        ui.add(egui::DragValue::new(&mut state.chance.seed)).labelled_by(label.id);
+        if button.clicked() {
+            state.random_dog();
+        }
+    });
+    let kept = state.chance.kept.len();
+    let title = if kept == 0 { "Keep nothing of this dog".to_owned() } else { format!("Keep {kept} of this dog") };
+    egui::CollapsingHeader::new(title).id_salt("kept").show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            let mut words: Vec<String> = state.table.specs.iter().map(|s| s.group.clone()).collect();
+            words.dedup();
+            words.push("coat".into());
+            for word in words {
+                let mut keeps = state.chance.kept.contains(&word);
+                if ui.checkbox(&mut keeps, format!("keep {}", word.to_lowercase())).changed() {
+                    if keeps {
+                        state.chance.kept.insert(word);
+                    } else {
+                        state.chance.kept.remove(&word);
+                    }
+                }
+            }
+        });
+    });
 }
 
 fn partner(state: &mut EditorState, ui: &mut egui::Ui, label: egui::Id) {

@@ -1,0 +1,98 @@
+//! `londra landmarks`.
+
+use super::args::Landmarks as Args;
+use super::rigs::Rigs;
+use super::{Failure, output, picture, subject};
+use crate::frame::Frame;
+use crate::measure::{Eyepoint, Landmark, Sight, bone_landmarks, skin_landmarks};
+use crate::render::Camera;
+use crate::rig::bone::Bones;
+use serde_json::{Value, json};
+
+/// Prints every landmark: its place, and in a view its pixel and whether it is seen.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let rigs = Rigs::open()?;
+    let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
+    let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    let rig = pipeline.rig().clone();
+    let frame = pipeline.update(&breed);
+    let bones = Bones::embedded().map_err(Failure::work)?;
+    let mut landmarks = skin_landmarks(&rig, &breed.values, &frame);
+    landmarks.extend(bone_landmarks(&rig, &bones, &breed.values));
+    let seen: Vec<Option<Seen>> = match args.view {
+        Some(view) => {
+            let camera = picture::camera(&frame, view, args.pitch, args.lens.unwrap_or_default(), args.size);
+            let look = Look::new(&frame, camera, args.size);
+            landmarks.iter().map(|l| Some(look.at(l))).collect()
+        }
+        None => vec![None; landmarks.len()],
+    };
+    let rows = landmarks.iter().zip(&seen);
+    if args.report.json {
+        return output::json(&rows.map(|(landmark, seen)| as_json(landmark, seen.as_ref())).collect());
+    }
+    output::result(&rows.map(|(landmark, seen)| line(landmark, seen.as_ref())).collect::<Vec<_>>().join("\n"))
+}
+
+/// Where a landmark is in the picture.
+#[derive(Clone, Debug)]
+struct Seen {
+    /// From the top left corner of the picture, rightwards and downwards, pixels; may lie outside it.
+    pixel: [f32; 2],
+    visible: bool,
+}
+
+/// A head before a camera.
+struct Look {
+    sight: Sight,
+    eye: Eyepoint,
+    camera: Camera,
+    size: [f32; 2],
+}
+
+impl Look {
+    fn new(frame: &Frame<'_>, camera: Camera, size: [u32; 2]) -> Self {
+        let (eye, is_point) = camera.eye_in_head();
+        let eye = if is_point > 0.0 { Eyepoint::At(eye) } else { Eyepoint::Towards(eye) };
+        Self { sight: Sight::new(frame), eye, camera, size: size.map(|side| side as f32) }
+    }
+
+    fn at(&self, landmark: &Landmark) -> Seen {
+        let [width, height] = self.size;
+        // The planes of the nearest and farthest do not move a pixel.
+        let clip = self.camera.clip_from_head(width / height, 1.0).project_point3(landmark.position);
+        let pixel = [(clip.x + 1.0) * 0.5 * width, (1.0 - clip.y) * 0.5 * height];
+        let is_inside = (0.0..width).contains(&pixel[0]) && (0.0..height).contains(&pixel[1]);
+        Seen { pixel, visible: is_inside && self.sight.is_open(landmark.position, self.eye) }
+    }
+}
+
+fn as_json(landmark: &Landmark, seen: Option<&Seen>) -> Value {
+    let mut object = json!({
+        "id": landmark.id, "name": landmark.name, "side": landmark.side.letter().to_string(), "layer": landmark.layer,
+        "position_mm": landmark.position.to_array().map(|metres| rounded(metres * 1000.0, 1e4)),
+    });
+    if let Some(seen) = seen {
+        object["pixel"] = json!(seen.pixel.map(|pixel| rounded(pixel, 1e2)));
+        object["visible"] = json!(seen.visible);
+    }
+    object
+}
+
+fn line(landmark: &Landmark, seen: Option<&Seen>) -> String {
+    let [x, y, z] = landmark.position.to_array().map(|metres| rounded(metres * 1000.0, 1e2));
+    let Landmark { id, name, side, layer, .. } = landmark;
+    let place = format!("{id}  {}  {layer}  {x:8.2} {y:8.2} {z:8.2} mm", side.letter());
+    match seen {
+        Some(Seen { pixel: [x, y], visible }) => {
+            let is_seen = if *visible { "visible" } else { "hidden " };
+            format!("{place}  {x:7.1} {y:7.1} px  {is_seen}  {name}")
+        }
+        None => format!("{place}  {name}"),
+    }
+}
+
+/// Without the digits that only rounding has made, and without the sign of a zero.
+fn rounded(value: f32, per_unit: f64) -> f64 {
+    (f64::from(value) * per_unit).round() / per_unit + 0.0
+}
