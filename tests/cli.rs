@@ -267,7 +267,7 @@ fn landmarks_are_a_table_for_people_and_an_array_for_programs() {
     for (line, landmark) in table.lines().zip(&all) {
         let word = |key: &str| landmark[key].as_str().unwrap().to_owned();
         assert!(line.starts_with(&word("id")) && line.ends_with(&word("name")), "{line}");
-        assert_eq!(word("layer"), "skin");
+        assert_eq!(word("layer"), if word("id").starts_with('S') { "bone" } else { "skin" });
         assert_eq!(landmark["position_mm"].as_array().unwrap().len(), 3);
         assert!(landmark["pixel"].is_null() && landmark["visible"].is_null());
     }
@@ -292,6 +292,38 @@ fn a_front_view_shows_the_nose_in_the_middle_and_not_the_occiput() {
         assert!((a + c - 400.0).abs() < 0.05 && (b - d).abs() < 0.05, "{left} {right}");
         // The dog's left is on the right of its picture.
         assert!(a > c && left["visible"] == right["visible"], "{left} {right}");
+    }
+}
+
+// ---- measure and layers ----
+
+#[test]
+fn a_measure_has_no_value_unit_or_rank() {
+    let found: Value = serde_json::from_str(&done(&["measure", "--breed", "pug", "--json"]).stdout).unwrap();
+    assert_eq!((&found["breed"], &found["class"]), (&Value::from("pug"), &Value::from("brachycephalic")));
+    let list = found["measurements"].as_array().unwrap();
+    assert!(list.len() > 25);
+    for m in list {
+        assert!(m["value"].as_f64().is_some_and(|v| v > 0.0), "{m}");
+        assert!(m["percentile"].as_f64().is_some_and(|p| (0.0..=100.0).contains(&p)), "{m}");
+        assert!(["bone", "skin"].contains(&m["on"].as_str().unwrap()), "{m}");
+    }
+    let of = |set: &str| {
+        let found: Value =
+            serde_json::from_str(&done(&["measure", "--breed", "labrador", "--set", set, "--json"]).stdout).unwrap();
+        let list = found["measurements"].as_array().unwrap().clone();
+        list.iter().find(|m| m["id"] == "zygomatic_width").unwrap()["value"].as_f64().unwrap()
+    };
+    assert!((of("zygomatic_width_mm=100") - 100.0).abs() < 0.1 && (of("zygomatic_width_mm=120") - 120.0).abs() < 0.1);
+    let table = done(&["measure", "--breed", "borzoi"]).stdout;
+    assert!(table.starts_with("Borzoi: dolichocephalic") && table.lines().count() == list.len() + 1, "{table}");
+    refused(&["measure"], 2, &["--breed"]);
+}
+
+#[test]
+fn layers_that_are_none_are_drawn() {
+    for (layers, word) in [("fur", "no layer `fur`"), ("skin=2", "skin=0 to skin=1"), ("bone=0.5", "only skin")] {
+        refused(&["render", "--breed", "pug", "--layers", layers, "-o", "x.png"], 2, &[word]);
     }
 }
 
