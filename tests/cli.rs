@@ -302,7 +302,7 @@ fn a_measure_has_no_value_unit_or_rank() {
     let found: Value = serde_json::from_str(&done(&["measure", "--breed", "pug", "--json"]).stdout).unwrap();
     assert_eq!((&found["breed"], &found["class"]), (&Value::from("pug"), &Value::from("brachycephalic")));
     let list = found["measurements"].as_array().unwrap();
-    assert!(list.len() > 25);
+    assert!(list.len() >= 25);
     for m in list {
         assert!(m["value"].as_f64().is_some_and(|v| v > 0.0), "{m}");
         assert!(m["percentile"].as_f64().is_some_and(|p| (0.0..=100.0).contains(&p)), "{m}");

@@ -43,7 +43,7 @@ impl Skeleton {
             (plan, values)
         };
         let ivory = Vec3::new(0.70, 0.60, 0.43);
-        let enamel = Vec3::new(0.80, 0.75, 0.62);
+        let enamel = Vec3::new(0.82, 0.73, 0.55);
         Ok(Self {
             bones,
             of_head: BonesOfHead::default(),

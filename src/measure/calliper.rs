@@ -154,11 +154,6 @@ impl Calliper {
     }
 }
 
-/// Angle between two directions, degrees.
-fn angle(a: Vec3, b: Vec3) -> f32 {
-    ops::acos((a.normalize_or_zero().dot(b.normalize_or_zero())).clamp(-1.0, 1.0)).to_degrees()
-}
-
 fn measurements(bone: &dyn Fn(&str) -> Vec3, skin: &dyn Fn(&str) -> Vec3, globe: f32) -> Vec<Measurement> {
     use Dimension::{Degree, Millimetre, Percent, Ratio};
     let (prosthion, nasion, inion) = (bone("S01"), bone("S03"), bone("S07"));
@@ -176,9 +171,6 @@ fn measurements(bone: &dyn Fn(&str) -> Vec3, skin: &dyn Fn(&str) -> Vec3, globe:
     let (nose, occiput) = (skin("K02"), skin("K25"));
     let (muzzle, cranium) = (stop.distance(nose), stop.distance(occiput));
     let (medial, lateral) = (skin("K29"), skin("K30"));
-    let base = bone("S10") - bone("S09");
-    let face = prosthion - bone("S11");
-    let profile = angle(skin("K20") - stop, skin("K23") - stop);
     // Seen from the front: from the tip of the frontal's process to the lower rim, against the horizontal.
     let rim = bone("S18") - bone("S15");
     let orbital = ops::atan2(rim.y.abs(), rim.x.abs()).to_degrees();
@@ -236,14 +228,6 @@ fn measurements(bone: &dyn Fn(&str) -> Vec3, skin: &dyn Fn(&str) -> Vec3, globe:
         of("s_index", "S-index", "facial length / cranial length", b, Ratio, facial_length / cranial_length),
         of("lw_index", "LW-index", "skull length / zygomatic width", b, Ratio, skull_length / zygomatic_width),
         of(
-            "craniofacial_angle",
-            "Craniofacial angle",
-            "cranial base (basion to synsphenion) against the palate",
-            b,
-            Degree,
-            angle(base, face),
-        ),
-        of(
             "orbital_angle",
             "Orbital angle",
             "from ectorbitale to the zygomatic rim, seen from the front, against the horizontal",
@@ -263,7 +247,6 @@ fn measurements(bone: &dyn Fn(&str) -> Vec3, skin: &dyn Fn(&str) -> Vec3, globe:
         of("live_cranial_length", "Cranial length, live", "stop to occiput", s, Millimetre, cranium),
         of("head_length", "Head length, live", "nose's upper edge to occiput", s, Millimetre, nose.distance(occiput)),
         of("head_width", "Head width, live", "across the zygomatic arches", s, Millimetre, 2.0 * skin("K36").x),
-        of("stop_angle", "Stop angle", "glabella, stop, middle of the bridge", s, Degree, profile),
         of("medial_canthi", "Medial canthi", "inner corner to inner corner", s, Millimetre, 2.0 * medial.x),
         of("lateral_canthi", "Lateral canthi", "outer corner to outer corner", s, Millimetre, 2.0 * lateral.x),
         of("fissure_length", "Lid fissure", "inner to outer corner", s, Millimetre, medial.distance(lateral)),

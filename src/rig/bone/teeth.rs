@@ -65,8 +65,8 @@ pub const LOWER: [Tooth; 11] = [
 ];
 
 const SEGMENTS: usize = 14;
-/// Distance from the crown's middle, rim to apex; the first ring is buried in the gum.
-const RINGS: [f32; 7] = [1.0, 1.0, 0.86, 0.66, 0.44, 0.22, 0.08];
+/// Distance from the crown's middle, rim to apex; the first ring is the root, buried in the bone.
+const RINGS: [f32; 7] = [0.7, 1.0, 0.86, 0.66, 0.44, 0.22, 0.08];
 
 /// Vertices of one tooth.
 pub const TOOTH_VERTICES: usize = RINGS.len() * SEGMENTS + 1;
@@ -162,10 +162,11 @@ pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
         let fit = if i > canine { (room * 1.25).clamp(0.6, 1.0) } else { 1.0 };
         let size = vec3(size.x * fit, size.y * fit, size.z);
         let inwards = match tooth.kind {
-            Incisor => vec3(0.0, 0.0, -0.3 * size.y),
-            _ => -across * (0.42 * size.y),
+            Incisor => vec3(0.0, 0.0, -0.5 * size.y),
+            Canine => -across * (0.85 * size.y),
+            _ => -across * (0.55 * size.y + 2.0 * unit),
         };
-        let root = at + inwards - up * (0.5 * unit);
+        let root = at + inwards - up * (2.2 * unit);
         for (ring, &r) in RINGS.iter().enumerate() {
             for s in 0..SEGMENTS {
                 let angle = core::f32::consts::TAU * s as f32 / SEGMENTS as f32;
@@ -204,7 +205,7 @@ fn point(
     up: Vec3,
     upper: bool,
 ) -> Vec3 {
-    let height = if buried { -0.35 } else { crown(kind, u, v) };
+    let height = if buried { -0.16 } else { crown(kind, u, v) };
     let mut p = along * (0.5 * size.x * u) + across * (0.5 * size.y * v) + up * (size.z * height);
     if kind == Canine {
         // The crown leans forwards and curves back; the lower one outwards too.
