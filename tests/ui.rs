@@ -6,7 +6,7 @@ use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use londra::anatomy::{Breed, ParamTable};
 use londra::app::{Command, Document, EditorState, files, panels};
-use londra::frame::{Pipeline, StageHashes};
+use londra::frame::{Layers, Pipeline, StageHashes};
 use londra::rig::Rig;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -324,4 +324,16 @@ fn rows_out_of_sight_keep_their_room() {
     }
     harness.run();
     assert!(!is_there(&harness, first) && is_there(&harness, last));
+}
+
+#[test]
+fn a_layer_has_no_switch() {
+    let mut harness = harness();
+    assert_eq!(harness.state().layers, Layers::default());
+    harness.get_by_role_and_label(Role::Slider, "Skin layer").set_value_accesskit(0.25);
+    for layer in ["eyes", "bone", "teeth"] {
+        harness.get_by_role_and_label(Role::CheckBox, layer).click();
+    }
+    harness.run();
+    assert_eq!(harness.state().layers, Layers { skin: 0.25, eyes: false, bone: true, teeth: true });
 }

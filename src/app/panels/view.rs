@@ -39,15 +39,14 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         }
         let card = ui.checkbox(&mut state.on_card, "GPU");
         card.on_hover_text("Refine on the graphics card what is drawn; numbers and files stay the processor's");
-        ui.menu_button("Layers", |ui| {
-            let layers = &mut state.layers;
-            let label = ui.label("Skin");
-            let slider = egui::Slider::new(&mut layers.skin, 0.0..=1.0).fixed_decimals(2);
-            ui.add(slider).labelled_by(label.id).on_hover_text("Opacity; 0 hides it");
-            ui.checkbox(&mut layers.eyes, "Eyes");
-            ui.checkbox(&mut layers.bone, "Bone");
-            ui.checkbox(&mut layers.teeth, "Teeth");
-        });
+        ui.separator();
+        let layers = &mut state.layers;
+        let label = ui.label("Skin layer");
+        let slider = egui::Slider::new(&mut layers.skin, 0.0..=1.0).fixed_decimals(2);
+        ui.add(slider).labelled_by(label.id).on_hover_text("How much of the skin is seen; 0 hides it");
+        ui.checkbox(&mut layers.eyes, "eyes").on_hover_text("Eyeballs");
+        ui.checkbox(&mut layers.bone, "bone").on_hover_text("Skull and mandible");
+        ui.checkbox(&mut layers.teeth, "teeth").on_hover_text("Crowns of the teeth");
         if ui.selectable_label(state.shows_keys, "?").on_hover_text("Keys").clicked() {
             state.shows_keys = !state.shows_keys;
         }
