@@ -16,6 +16,7 @@ use geometry::{Shape, hit, outside};
 use glam::{DVec3, Vec3};
 use known_breeds::{CLASSES, MEASURED_SKULLS, REFERENCES, live_ratio};
 use londra::anatomy::{Breed, Region};
+use londra::measure::MAY_FOLD;
 use londra::rig::deform::ROUNDS;
 use londra::rig::{Deformed, Eye, HalfMesh};
 use londra::subdiv::{Evaluator, Plan, Scheme};
@@ -424,7 +425,7 @@ fn margin_reach(world: &World, eye: &Eye, skin: &[Vec3]) -> (f32, f32) {
 /// the fold of a large lid lies against the stop.
 fn may_fold(name: &str) -> bool {
     let has = |start: &str| name.split([' ', '-', '(', ')']).any(|v| v.starts_with(start));
-    ["mu.", "ml.", "a0.", "a1.", "a2.", "a3.", "a4.", "a5.", "s.10.9", "s.8.2"].into_iter().any(has)
+    MAY_FOLD.into_iter().any(has)
 }
 
 #[derive(Default)]

@@ -64,19 +64,22 @@ pub fn all() -> Result<Vec<Baked>, BakeError> {
     ])
 }
 
+/// Appends a named list, so many rows to a line.
+fn list(out: &mut String, name: &str, rows: Vec<String>, per_line: usize) {
+    use std::fmt::Write as _;
+    let _ = writeln!(out, "    {name}: [");
+    for line in rows.chunks(per_line) {
+        let _ = writeln!(out, "        {},", line.join(", "));
+    }
+    let _ = writeln!(out, "    ],");
+}
+
 /// A bone as RON.
 fn bone_text(half: &BoneHalf) -> String {
-    use std::fmt::Write as _;
     let mut out = String::from(
         "// Baked by `londra bake` from src/rig/bone/field.rs. Edit that, not this.\n(\n    version: 1,\n",
     );
-    let mut list = |name: &str, rows: Vec<String>, per_line: usize| {
-        let _ = writeln!(out, "    {name}: [");
-        for line in rows.chunks(per_line) {
-            let _ = writeln!(out, "        {},", line.join(", "));
-        }
-        let _ = writeln!(out, "    ],");
-    };
+    let mut list = |name, rows, per_line| list(&mut out, name, rows, per_line);
     list("midline", half.midline.iter().map(bool::to_string).collect(), 20);
     list("faces", half.faces.iter().map(|[a, b, c]| format!("({a}, {b}, {c})")).collect(), 8);
     list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 6);
@@ -91,13 +94,7 @@ fn text(half: &HalfMesh) -> String {
     let mut out = String::from(
         "// Baked by `londra bake` from assets/head.patch.ron and rigs/anatomy.ron. Edit those, not this.\n(\n    version: 1,\n",
     );
-    let mut list = |name: &str, rows: Vec<String>, per_line: usize| {
-        let _ = writeln!(out, "    {name}: [");
-        for line in rows.chunks(per_line) {
-            let _ = writeln!(out, "        {},", line.join(", "));
-        }
-        let _ = writeln!(out, "    ],");
-    };
+    let mut list = |name, rows, per_line| list(&mut out, name, rows, per_line);
     let numbers = |v: &[u16]| v.iter().map(u16::to_string).collect::<Vec<_>>().join(", ");
     list("tags", half.tags.iter().map(|t| format!("{t:?}")).collect(), 12);
     list("midline", half.midline.iter().map(bool::to_string).collect(), 20);

@@ -3,6 +3,7 @@
 //! Stored is one half (x ≥ 0) with names, regions, loops, landmarks and the base shape; the whole mesh is that half, in
 //! its order, followed by the mirror images of its vertices off the median plane.
 
+use super::mirror;
 use crate::anatomy::Region;
 use crate::mesh::{DedgeMesh, MeshError};
 use glam::Vec3;
@@ -82,24 +83,12 @@ impl HalfMesh {
 
     /// For each half vertex, its number on the other side in the whole mesh; itself on the midline.
     pub fn mirror(&self) -> Vec<u32> {
-        let mut next = self.n_half() as u32;
-        let image = |(v, &mid): (usize, &bool)| {
-            if mid {
-                v as u32
-            } else {
-                next += 1;
-                next - 1
-            }
-        };
-        self.midline.iter().enumerate().map(image).collect()
+        mirror::images(&self.midline)
     }
 
     /// Triangles of the whole mesh: the half's, then their mirror images.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let mirror = self.mirror();
-        let left = self.faces.iter().map(|f| f.map(u32::from));
-        let right = self.faces.iter().map(|&[a, b, c]| [a, c, b].map(|v| mirror[v as usize]));
-        left.chain(right).collect()
+        mirror::triangles(&self.midline, &self.faces)
     }
 
     /// The whole mesh's connectivity.
@@ -107,8 +96,7 @@ impl HalfMesh {
     /// # Errors
     /// If it is not an oriented manifold.
     pub fn mesh(&self) -> Result<DedgeMesh, MeshError> {
-        let n = self.n_half() + self.midline.iter().filter(|m| !**m).count();
-        DedgeMesh::from_triangles(n, &self.triangles())
+        DedgeMesh::from_triangles(mirror::n_whole(&self.midline), &self.triangles())
     }
 
     /// Region of each vertex of the whole mesh.

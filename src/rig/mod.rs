@@ -10,6 +10,7 @@ pub mod handles;
 pub mod implicit;
 mod landmarks;
 mod lanes;
+mod mirror;
 mod primitives;
 mod proportions;
 

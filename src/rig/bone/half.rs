@@ -1,6 +1,7 @@
 //! The control mesh of a bone as baked: one half, mirrored when loaded.
 
 use crate::mesh::{DedgeMesh, MeshError};
+use crate::rig::mirror;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -22,30 +23,12 @@ pub struct BoneHalf {
 }
 
 impl BoneHalf {
-    /// For each half vertex, its number on the other side in the whole mesh; itself on the midline.
-    pub fn mirror(&self) -> Vec<u32> {
-        let mut next = self.midline.len() as u32;
-        let image = |(v, &middle): (usize, &bool)| {
-            if middle {
-                return v as u32;
-            }
-            next += 1;
-            next - 1
-        };
-        self.midline.iter().enumerate().map(image).collect()
-    }
-
     /// Connectivity of the whole mesh.
     ///
     /// # Errors
     /// Where it is not an oriented manifold.
     pub fn mesh(&self) -> Result<DedgeMesh, MeshError> {
-        let mirror = self.mirror();
-        let left = self.faces.iter().map(|f| f.map(u32::from));
-        let right = self.faces.iter().map(|&[a, b, c]| [a, c, b].map(|v| mirror[v as usize]));
-        let triangles: Vec<[u32; 3]> = left.chain(right).collect();
-        let n = self.midline.len() + self.midline.iter().filter(|m| !**m).count();
-        DedgeMesh::from_triangles(n, &triangles)
+        DedgeMesh::from_triangles(mirror::n_whole(&self.midline), &mirror::triangles(&self.midline, &self.faces))
     }
 
     /// Writes the whole mesh's positions from the half's.

@@ -40,8 +40,7 @@ macro_rules! landmarks {
 
         /// A position for each landmark.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs, reason = "the names are those of the list")]
-        pub struct Targets<T> { $(pub $key: T,)* }
+        pub struct Targets<T> { $(#[doc = $name] pub $key: T,)* }
 
         impl<T: Copy> Targets<T> {
             /// As a list, in the order of [`LANDMARKS`].

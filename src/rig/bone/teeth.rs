@@ -167,25 +167,15 @@ pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
             _ => -across * (0.55 * size.y + 2.0 * unit),
         };
         let root = at + inwards - up * (2.2 * unit);
+        let axes = [along, across, up];
         for (ring, &r) in RINGS.iter().enumerate() {
             for s in 0..SEGMENTS {
                 let angle = core::f32::consts::TAU * s as f32 / SEGMENTS as f32;
-                out.push(
-                    root + point(
-                        tooth.kind,
-                        size,
-                        r * ops::cos(angle),
-                        r * ops::sin(angle),
-                        ring == 0,
-                        along,
-                        across,
-                        up,
-                        upper,
-                    ),
-                );
+                let at = [r * ops::cos(angle), r * ops::sin(angle)];
+                out.push(root + point(tooth, size, axes, at, ring == 0));
             }
         }
-        out.push(root + point(tooth.kind, size, 0.0, 0.0, false, along, across, up, upper));
+        out.push(root + point(tooth, size, axes, [0.0; 2], false));
     }
     for k in 0..out.len() {
         let p = out[k];
@@ -193,24 +183,16 @@ pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
     }
 }
 
-#[allow(clippy::too_many_arguments, reason = "a frame, a size and a place")]
-fn point(
-    kind: ToothKind,
-    size: Vec3,
-    u: f32,
-    v: f32,
-    buried: bool,
-    along: Vec3,
-    across: Vec3,
-    up: Vec3,
-    upper: bool,
-) -> Vec3 {
-    let height = if buried { -0.16 } else { crown(kind, u, v) };
+/// A point of a crown, from its root: at `u` along the arch and `v` across.
+fn point(tooth: &Tooth, size: Vec3, axes: [Vec3; 3], [u, v]: [f32; 2], is_root: bool) -> Vec3 {
+    let [along, across, up] = axes;
+    let height = if is_root { -0.16 } else { crown(tooth.kind, u, v) };
     let mut p = along * (0.5 * size.x * u) + across * (0.5 * size.y * v) + up * (size.z * height);
-    if kind == Canine {
+    if tooth.kind == Canine {
         // The crown leans forwards and curves back; the lower one outwards too.
         let t = height.max(0.0);
-        p += along * (size.z * (0.20 * t - 0.30 * t * t)) + across * (size.z * if upper { 0.05 } else { 0.14 } * t);
+        let lean = if up.y < 0.0 { 0.05 } else { 0.14 };
+        p += along * (size.z * (0.20 * t - 0.30 * t * t)) + across * (size.z * lean * t);
     }
     p
 }

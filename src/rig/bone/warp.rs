@@ -23,7 +23,6 @@ impl Warp {
         let lateral: Vec<usize> = (0..LANDMARKS.len()).filter(|&k| LANDMARKS[k].canonical.x > 0.0).collect();
         let mut centres: Vec<DVec3> = LANDMARKS.iter().map(|l| l.canonical.as_dvec3()).collect();
         centres.extend(lateral.iter().map(|&k| LANDMARKS[k].canonical.as_dvec3() * dvec3(-1.0, 1.0, 1.0)));
-        let n = centres.len();
         let row = |p: DVec3| -> Vec<f64> {
             let basis = centres.iter().map(|c| (p.distance_squared(*c) + ROUNDING * ROUNDING).sqrt());
             basis.chain([1.0, p.x, p.y, p.z]).collect()
@@ -47,9 +46,7 @@ impl Warp {
             }
             weights
         });
-        let weights = weights.collect();
-        debug_assert!(n >= LANDMARKS.len());
-        Warp { weights }
+        Warp { weights: weights.collect() }
     }
 
     /// The points of a head with these landmarks, in the landmarks' unit; one for each point of the map.
