@@ -115,12 +115,12 @@ impl Implicit {
             ),
             zygoma: {
                 let a = vec3(0.98 * eye.x, s.zyg_y + 0.35, eye.z + 0.2);
-                let b = vec3(zw - 1.8, s.zyg_y + 0.2, -0.36 * cl);
-                let c = vec3(zw - 2.4, s.zyg_y + 0.9, -0.62 * cl);
+                let b = vec3(zw - 2.05, s.zyg_y + 0.2, -0.36 * cl);
+                let c = vec3(zw - 2.6, s.zyg_y + 0.9, -0.62 * cl);
                 [Cone::new(a, b, 1.35, 1.8), Cone::new(b, c, 1.8, 1.8)]
             },
             masseter: Ellipsoid::turned(
-                vec3(zw - 2.6, s.zyg_y - 2.3, -0.38 * cl),
+                vec3(zw - 2.9, s.zyg_y - 2.3, -0.38 * cl),
                 vec3(2.2 + 0.5 * s.cheek, 3.0 + 0.3 * s.cheek, 3.4),
                 15.0,
             ),
@@ -137,6 +137,7 @@ impl Implicit {
                 bottom: (lip0 - 0.2, lip1),
                 arch: s.roman,
                 top_width: s.bridge_w,
+                sides: (0.16, 0.08),
                 rounding: 0.62,
             },
             whisker_pad: Ellipsoid::new(
@@ -154,9 +155,10 @@ impl Implicit {
                 z: (-0.40 * cl, jz - 0.2),
                 half_width: (w0 * s.jaw_w + 0.35, 0.70 * w1 * s.jaw_w),
                 top: (lip0 + 1.0, lip1 + 0.9),
-                bottom: (lip0 - 1.15 * s.jaw_d, lip1 - 0.72 * s.jaw_d),
+                bottom: (lip0 - s.jaw_d, lip1 - 0.72 * s.jaw_d),
                 arch: 0.0,
                 top_width: 1.0,
+                sides: (0.0, 0.0),
                 rounding: 0.70,
             },
             chin: (
@@ -174,7 +176,7 @@ impl Implicit {
             },
             neck_x,
             throat: Cone::new(
-                s.head_from_muzzle(vec3(0.0, lip0 - 0.1 * s.jaw_d, 0.0)),
+                s.head_from_muzzle(vec3(0.0, lip0 + 0.4 - 0.1 * s.jaw_d, 0.0)),
                 neck_a + neck_dir * 8.0 - vec3(0.0, 1.5 + s.throat, 0.0),
                 2.1,
                 3.6,

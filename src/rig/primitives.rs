@@ -72,6 +72,8 @@ pub(super) struct TaperedBox {
     pub(super) bottom: (f32, f32),
     pub(super) arch: f32,
     pub(super) top_width: f32,
+    /// How far the sides bulge at half height, and how far they draw in below; parts of the width.
+    pub(super) sides: (f32, f32),
     pub(super) rounding: f32,
 }
 
@@ -87,7 +89,10 @@ impl TaperedBox {
         let bottom = lerp(self.bottom);
         let (mid, half) = ((top + bottom) * 0.5, ((top - bottom) * 0.5).max(F8::splat(0.1)));
         let v = (p.y - bottom).div(half * 2.0).clamp(0.0, 1.0);
-        let width = lerp(self.half_width) * (v * (self.top_width - 1.0) + 1.0);
+        let below = F8::splat(1.0) - v;
+        let (bulge, draw) = self.sides;
+        let side = v * (self.top_width - 1.0) + 1.0 + v * below * (4.0 * bulge) - below * draw;
+        let width = lerp(self.half_width) * side;
         let r = width.min(half) * self.rounding;
         let qx = p.x - (width - r);
         let qy = (p.y - mid).abs() - (half - r);

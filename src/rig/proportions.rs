@@ -225,6 +225,9 @@ pub struct Proportions {
 /// Cranial length of the default head, metres: there a head unit is 10 mm.
 const REFERENCE_CRANIUM: f32 = 0.106;
 
+/// The base of the cranium below the skin of the nasion on the canonical head, with the skin of the crown (head units).
+const BASE_BELOW_NASION: f32 = 3.65;
+
 /// How deep the bridge lies under the forehead (head units) for an interior stop angle in radians. A curve through the
 /// classes of the standards: 175 degrees is hardly a step, 145 a Labrador's, 95 the deepest.
 fn stop_depth(angle: f32) -> f32 {
@@ -241,7 +244,7 @@ impl Proportions {
             scale,
             cran_len: 11.5,
             cran_w: 1.2 * u(m.cranial_width) + 2.0 * u(m.temporalis),
-            cran_h: u(m.cranial_height) - 2.7,
+            cran_h: u(m.cranial_height) - BASE_BELOW_NASION,
             dome: m.forehead_dome,
             occiput: u(m.occiput),
             furrow: u(m.furrow),
@@ -304,11 +307,11 @@ impl Proportions {
 
     /// Height of the bridge at its root, muzzle frame.
     pub fn bridge0(&self) -> f32 {
-        -0.75 * self.stop
+        -(0.2 + 0.092 * self.stop) * self.stop
     }
     /// Height of the bridge at the nose, muzzle frame.
     pub fn bridge1(&self) -> f32 {
-        self.bridge0() - 0.35
+        self.bridge0() - 0.65
     }
     /// Height of the lip line at the root of the muzzle, muzzle frame.
     pub fn lip0(&self) -> f32 {
@@ -328,7 +331,7 @@ impl Proportions {
     }
     /// Middle of the nose pad, muzzle frame.
     pub fn nose_centre(&self) -> Vec3 {
-        vec3(0.0, self.bridge1() + 0.10 - 0.4 * self.nose_h + self.nose_up, self.muz_len - 0.75 + self.nose_out)
+        vec3(0.0, self.bridge1() - 0.12 - 0.4 * self.nose_h + self.nose_up, self.muz_len - 0.6 + self.nose_out)
     }
     /// Middle of the left eyeball.
     pub fn eye(&self) -> Vec3 {
@@ -336,7 +339,7 @@ impl Proportions {
     }
     /// Midpoint of the mandibular condyles: the origin of the head's frame.
     pub fn hinge(&self) -> Vec3 {
-        vec3(0.0, self.zyg_y - 0.9, -0.42 * self.cran_len)
+        vec3(0.0, self.zyg_y - 1.37, -0.46 * self.cran_len)
     }
     /// Start and unit direction of the neck.
     pub fn neck_axis(&self) -> (Vec3, Vec3) {

@@ -108,6 +108,9 @@ const MM: f32 = 10.23;
 /// Skin over bone in the median plane, head units.
 const TISSUE: f32 = 0.45;
 
+/// The upper teeth's necks above the lip's margin, as a part of the muzzle's depth.
+const ALVEOLUS: f32 = 0.46;
+
 /// Where the landmarks of a head's bone stand: metres, head's frame.
 pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
     let canon = Targets::<Vec3>::CANONICAL;
@@ -118,7 +121,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
 
     // The median profile, in the frame of the proportions (origin at the skin of the nasion).
     let nasion = vec3(0.0, -TISSUE - 0.45 * (s.stop - 1.9).max(0.0), -0.35 - 0.06 * (s.muz_len - 9.0).clamp(0.0, 4.0));
-    let rise = (s.cran_h - 2.0 + 0.5 * s.occiput - nasion.y).clamp(-0.6 * cranium, 0.6 * cranium);
+    let rise = (s.cran_h - 2.4 + 0.5 * s.occiput - nasion.y).clamp(-0.6 * cranium, 0.6 * cranium);
     let akrokranion = nasion + vec3(0.0, rise, -ops::sqrt(cranium * cranium - rise * rise));
     let base = hinge.y;
     let crown = s.cran_h - 0.2;
@@ -152,7 +155,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
     // The face, in the muzzle's frame.
     let (w0, w1) = (0.5 * s.muz_w0, 0.5 * s.muz_w1);
     let nasion_m = s.muzzle_from_head(nasion);
-    let (alveolar0, front) = (s.lip0() + 0.36 * s.muz_d0, s.lip1() + 0.36 * s.muz_d1);
+    let (alveolar0, front) = (s.lip0() + ALVEOLUS * s.muz_d0, s.lip1() + ALVEOLUS * s.muz_d1);
     // A face that is higher than long turns its palate up.
     let drop = (nasion_m.y - front).min(0.85 * face);
     let prosthion = vec3(0.0, nasion_m.y - drop, nasion_m.z + ops::sqrt(face * face - drop * drop));
@@ -175,11 +178,11 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
     let canine = at(0.79 * w1, c.y, c.z);
 
     // The lower jaw: under the upper, as far as its skin allows.
-    let below = |y: f32| y / 11.0 * (0.30 * s.jaw_d + 0.3);
+    let below = |y: f32| y / 11.0 * (0.35 * s.jaw_d + 0.4);
     let floor = |z: f32| {
-        let skin0 = s.lip0() - 1.15 * s.jaw_d;
+        let skin0 = s.lip0() - s.jaw_d;
         let skin1 = s.lip1() - 0.72 * s.jaw_d;
-        line(out(z), &[(out(24.0), skin0 + 1.0), (prosthion.z, skin1 + 1.0)])
+        line(out(z), &[(out(24.0), skin0 + 0.3), (prosthion.z, skin1 + 0.55)])
     };
     let bite = (s.jaw_len + 0.8).max(-0.7) - 0.3;
     let infradentale = vec3(0.0, prosthion.y - below(11.0), prosthion.z + bite);
@@ -224,7 +227,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         body: muzzle(vec3(0.64 * w0 * jaw_w, floor(66.0), jaw_z(66.0))),
         symphysis: muzzle(vec3(0.0, floor(101.0), jaw_z(101.0))),
         infradentale: muzzle(infradentale),
-        gnathion: muzzle(vec3(0.0, floor(120.0) + 0.35, jaw_z(120.0))),
+        gnathion: muzzle(vec3(0.0, floor(120.0) + 0.4, jaw_z(120.0))),
         bulla: head(cranial(canon.bulla)),
         meatus: head(cranial(canon.meatus)),
         occipital_condyle: head(occipital(canon.occipital_condyle)),
