@@ -393,11 +393,8 @@ fn ball_through_lids(world: &World, eye: &Eye, skin: &[Vec3], indices: &[u32]) -
         .map(|&v| skin[v as usize].as_dvec3() - centre)
         .map(|p| [p.dot(a) / r, p.dot(b) / r])
         .collect();
-    let near: Vec<[DVec3; 3]> = indices
-        .chunks_exact(3)
-        .map(|t| [t[0], t[1], t[2]].map(|v| skin[v as usize].as_dvec3()))
-        .filter(|t| (t[0] - centre).length() < 12.0 * r)
-        .collect();
+    let near: Vec<[DVec3; 3]> =
+        indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|v| skin[v as usize].as_dvec3())).collect();
     let mut worst = 0.0_f64;
     for polar in (12..62).step_by(4) {
         let (sin, cos) = f64::from(polar).to_radians().sin_cos();

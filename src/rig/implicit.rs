@@ -169,7 +169,7 @@ impl Implicit {
                 0.12 * s.chin,
             ),
             nose: Ellipsoid::new(s.nose_centre(), vec3(0.48 * s.nose_w, 0.48 * s.nose_h, 1.0)),
-            tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.36, 0.36, 0.7)),
+            tear: Ellipsoid::new(vec3(0.6 * eye.x, eye.y - 0.55, eye.z + 2.45), vec3(0.3, 0.3, 0.6)),
             neck: {
                 let squeeze = vec3(1.0 / neck_x, 1.0, 1.0);
                 Cone::new(neck_a * squeeze, (neck_a + neck_dir * 16.0) * squeeze, 0.47 * s.neck_d, 0.56 * s.neck_d)

@@ -7,7 +7,7 @@
 use super::control::HalfMesh;
 
 /// Id, name, and one vertex of the control mesh or the three of a face; see `assets/head.patch.ron` for the vertices.
-const MORE: [(&str, &str, &[&str]); 23] = [
+const MORE: [(&str, &str, &[&str]); 22] = [
     ("K01", "nose tip", &["nm.1"]),
     ("K06", "nostril, lateral slit end", &["nr.4"]),
     ("K08", "upper lip margin at canine", &["s.5.9"]),
@@ -18,7 +18,6 @@ const MORE: [(&str, &str, &[&str]); 23] = [
     ("K26", "brow pad medial", &["s.9.1", "s.9.2", "s.10.2"]),
     ("K28", "brow lateral", &["s.11.2", "s.11.3", "s.12.3"]),
     ("K35", "infraorbital groove end", &["s.9.5"]),
-    ("K36", "zygomatic width", &["s.12.6", "s.13.6", "s.13.7"]),
     ("K37", "masseter bulge", &["s.13.7", "s.13.8", "s.14.8"]),
     ("K41", "muzzle-cheek junction", &["s.9.6"]),
     ("K42", "whisker pad centre", &["s.3.6", "s.4.6", "s.4.7"]),

@@ -152,10 +152,11 @@ impl Rig {
     /// Control positions and eyes of one head; `rounds` of the fit are [`deform::ROUNDS`] everywhere but in the test that
     /// measures how little more of them would change.
     pub fn deform(&self, values: &[f32], rounds: usize, out: &mut Deformed) {
-        let shape = self.proportions(values);
+        let measures = self.measures(values);
+        let shape = Proportions::new(&measures);
         out.half.resize(self.half.n_half(), Vec3::ZERO);
         out.control.resize(self.mesh.n_vertices(), Vec3::ZERO);
-        self.plan.run(&shape, rounds, &mut out.scratch, &mut out.half);
+        self.plan.run(&measures, &shape, rounds, &mut out.scratch, &mut out.half);
         for p in &mut out.half {
             *p = shape.metres(*p);
         }

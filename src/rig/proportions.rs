@@ -305,13 +305,17 @@ impl Proportions {
         }
     }
 
+    /// Metres of one millimetre of the canonical head, whose cranium is 108.4 mm long.
+    pub fn canonical_mm(&self) -> f32 {
+        self.scale * (REFERENCE_CRANIUM / 0.01 / 108.4)
+    }
     /// Height of the bridge at its root, muzzle frame.
     pub fn bridge0(&self) -> f32 {
-        -(0.2 + 0.092 * self.stop) * self.stop
+        -(0.05 + 0.185 * self.stop) * self.stop
     }
     /// Height of the bridge at the nose, muzzle frame.
     pub fn bridge1(&self) -> f32 {
-        self.bridge0() - 0.65
+        self.bridge0() - 0.65 * (self.muz_len / 9.0).min(1.0)
     }
     /// Height of the lip line at the root of the muzzle, muzzle frame.
     pub fn lip0(&self) -> f32 {
@@ -336,6 +340,14 @@ impl Proportions {
     /// Middle of the left eyeball.
     pub fn eye(&self) -> Vec3 {
         vec3(self.eye_x, self.eye_y, self.eye_z)
+    }
+    /// How deep the eye lies behind the edge of the orbit: 1 on long faces, less where a short one pushes it forward.
+    pub fn depth_of_orbit(&self) -> f32 {
+        0.25 + 0.75 * (self.muz_len / 8.5).min(1.0)
+    }
+    /// How far the medial canthus stands before the ball, as a part of the ball's radius.
+    pub fn canthus(&self) -> f32 {
+        0.22 * self.depth_of_orbit()
     }
     /// Midpoint of the mandibular condyles: the origin of the head's frame.
     pub fn hinge(&self) -> Vec3 {

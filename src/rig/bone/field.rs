@@ -23,10 +23,13 @@ enum Shape {
     Cone(Cone, f32),
     /// A tube of elliptic sections along the face: half width, bottom and top at each of its stations, and how much
     /// narrower it is above.
-    Face(Vec<Station>),
+    Face([Station; STATIONS]),
     /// What lies above a plane.
     Above(Vec3, f32),
 }
+
+/// Stations of the face.
+const STATIONS: usize = 7;
 
 #[derive(Clone, Copy, Debug)]
 struct Station {
@@ -37,10 +40,17 @@ struct Station {
     half_width_top: f32,
 }
 
-/// One bone of one head.
+/// One bone of one head. Inside it reckons in canonical millimetres of that head, whatever unit its landmarks have.
 #[derive(Clone, Debug)]
 pub struct BoneField {
     bodies: Vec<Body>,
+    unit: f32,
+}
+
+impl Default for BoneField {
+    fn default() -> Self {
+        Self { bodies: Vec::new(), unit: 1.0 }
+    }
 }
 
 impl Shape {
@@ -54,7 +64,7 @@ impl Shape {
     }
 }
 
-fn face(stations: &[Station], p: P8) -> F8 {
+fn face(stations: &[Station; STATIONS], p: P8) -> F8 {
     F8(std::array::from_fn(|i| {
         let (x, y, z) = (p.x.0[i], p.y.0[i], p.z.0[i]);
         let last = stations.len() - 2;
@@ -79,21 +89,32 @@ fn face(stations: &[Station], p: P8) -> F8 {
 impl BoneField {
     /// The field of a bone with these landmarks; `unit` is a canonical millimetre of that head, in the landmarks' unit.
     pub fn new(bone: BoneMesh, t: &Targets<Vec3>, unit: f32) -> BoneField {
+        let mut field = Self::default();
+        field.place(bone, t, unit);
+        field
+    }
+
+    /// Makes it the field of another head, in the memory that it has.
+    pub fn place(&mut self, bone: BoneMesh, t: &Targets<Vec3>, unit: f32) {
+        self.unit = unit;
+        self.bodies.clear();
+        let t = t.map(|p| p * (1.0 / unit));
         match bone {
-            BoneMesh::Skull => skull(t, unit),
-            BoneMesh::Mandible => mandible(t, unit),
+            BoneMesh::Skull => skull(&t, &mut self.bodies),
+            BoneMesh::Mandible => mandible(&t, &mut self.bodies),
         }
     }
 
     /// Signed distance at eight points: negative inside.
     pub fn distance8(&self, p: P8) -> F8 {
-        let p = P8 { x: p.x.abs(), ..p };
+        let s = 1.0 / self.unit;
+        let p = P8 { x: p.x.abs() * s, y: p.y * s, z: p.z * s };
         let mut d = F8::splat(1e3);
         for body in &self.bodies {
             let other = body.shape.eval(p);
             d = if body.adds { smin(d, other, body.blend) } else { smax(d, -other, body.blend) };
         }
-        d
+        d * self.unit
     }
 
     /// Signed distance at one point.
@@ -129,21 +150,18 @@ impl BoneField {
 }
 
 /// Collects bodies; lengths in canonical millimetres of the head at hand.
-struct Bodies {
-    unit: f32,
-    bodies: Vec<Body>,
-}
+struct Bodies<'a>(&'a mut Vec<Body>);
 
-impl Bodies {
+impl Bodies<'_> {
     fn push(&mut self, shape: Shape, blend: f32, adds: bool) {
-        self.bodies.push(Body { shape, blend: blend * self.unit, adds });
+        self.0.push(Body { shape, blend, adds });
     }
     fn ball(&mut self, centre: Vec3, radii: Vec3, blend: f32, adds: bool) {
         self.push(Shape::Ellipsoid(Ellipsoid::new(centre, radii)), blend, adds);
     }
     fn bar(&mut self, points: &[(Vec3, f32)], blend: f32) {
         for pair in points.windows(2) {
-            let cone = Cone::new(pair[0].0, pair[1].0, pair[0].1 * self.unit, pair[1].1 * self.unit);
+            let cone = Cone::new(pair[0].0, pair[1].0, pair[0].1, pair[1].1);
             self.push(Shape::Cone(cone, 1.0), blend, true);
         }
     }
@@ -151,45 +169,39 @@ impl Bodies {
     fn plate(&mut self, points: &[(Vec3, f32)], flat: f32, blend: f32) {
         let squeeze = vec3(1.0 / flat, 1.0, 1.0);
         for pair in points.windows(2) {
-            let cone =
-                Cone::new(pair[0].0 * squeeze, pair[1].0 * squeeze, pair[0].1 * self.unit, pair[1].1 * self.unit);
+            let cone = Cone::new(pair[0].0 * squeeze, pair[1].0 * squeeze, pair[0].1, pair[1].1);
             self.push(Shape::Cone(cone, flat), blend, true);
         }
     }
 }
 
-fn skull(t: &Targets<Vec3>, unit: f32) -> BoneField {
-    let mm = |x: f32, y: f32, z: f32| vec3(x, y, z) * unit;
-    let mut b = Bodies { unit, bodies: Vec::new() };
+fn skull(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
+    let mm = vec3;
+    let mut b = Bodies(bodies);
     let on_midline = |y: f32, z: f32| vec3(0.0, y, z);
 
     // Braincase, frontal bones, base.
-    let top = t.vertex.y - 1.5 * unit;
-    let (bottom, back) = (t.synsphenion.y + 1.0 * unit, t.opisthion.z + 2.0 * unit);
-    let (middle_z, depth) = (t.euryon.z - 1.0 * unit, t.euryon.z - 1.0 * unit - back);
+    let top = t.vertex.y - 1.5;
+    let (bottom, back) = (t.synsphenion.y + 1.0, t.opisthion.z + 2.0);
+    let (middle_z, depth) = (t.euryon.z - 1.0, t.euryon.z - 1.0 - back);
     b.ball(
         on_midline(0.5 * (top + bottom), middle_z),
-        vec3(t.euryon.x, 0.5 * (top - bottom), depth.max(20.0 * unit)),
+        vec3(t.euryon.x, 0.5 * (top - bottom), depth.max(20.0)),
         1.0,
         true,
     );
     b.ball(
-        on_midline(0.5 * (t.bregma.y + t.synsphenion.y) + 3.0 * unit, t.bregma.z),
-        vec3(0.78 * t.euryon.x, 0.42 * (t.bregma.y - t.synsphenion.y), 27.0 * unit),
+        on_midline(0.5 * (t.bregma.y + t.synsphenion.y) + 3.0, t.bregma.z),
+        vec3(0.78 * t.euryon.x, 0.42 * (t.bregma.y - t.synsphenion.y), 27.0),
         12.0,
         true,
     );
-    let brow = t.glabella.y - 0.5 * unit;
-    b.ball(
-        on_midline(brow - 14.5 * unit, t.frontostenion.z + 5.0 * unit),
-        vec3(t.frontostenion.x * 1.05, 14.0 * unit, 30.0 * unit),
-        16.0,
-        true,
-    );
+    let brow = t.glabella.y - 0.5;
+    b.ball(on_midline(brow - 14.5, t.frontostenion.z + 5.0), vec3(t.frontostenion.x * 1.05, 14.0, 30.0), 16.0, true);
     b.ball(t.glabella + mm(9.0, -11.0, 2.0), mm(12.0, 11.0, 15.0), 12.0, true);
     b.bar(
         &[
-            (on_midline(t.basion.y + 8.0 * unit, t.basion.z + 6.0 * unit), 8.0),
+            (on_midline(t.basion.y + 8.0, t.basion.z + 6.0), 8.0),
             (t.synsphenion + mm(0.0, 6.5, 0.0), 6.5),
             (t.staphylion + mm(0.0, 9.0, -6.0), 6.0),
         ],
@@ -235,50 +247,32 @@ fn skull(t: &Targets<Vec3>, unit: f32) -> BoneField {
     let front = t.prosthion.z;
     let nasal = |from: Vec3, to: Vec3, z: f32| from.y + (to.y - from.y) * ((z - from.z) / (to.z - from.z));
     b.push(
-        Shape::Face(vec![
-            station(
-                t.staphylion.z - 2.0 * unit,
-                t.staphylion.y - 1.0 * unit,
-                t.nasion.y + 1.0 * unit,
-                14.0 * unit,
-                13.0 * unit,
-            ),
-            station(t.upper_last.z, t.upper_last.y, t.nasion.y - 1.5 * unit, t.upper_last.x, 13.0 * unit),
-            station(
-                t.maxilla.z,
-                t.maxilla.y,
-                nasal(t.nasion, t.rhinion, t.maxilla.z),
-                t.maxilla.x + 2.0 * unit,
-                11.5 * unit,
-            ),
+        Shape::Face([
+            station(t.staphylion.z - 2.0, t.staphylion.y - 1.0, t.nasion.y + 1.0, 14.0, 13.0),
+            station(t.upper_last.z, t.upper_last.y, t.nasion.y - 1.5, t.upper_last.x, 13.0),
+            station(t.maxilla.z, t.maxilla.y, nasal(t.nasion, t.rhinion, t.maxilla.z), t.maxilla.x + 2.0, 11.5),
             station(
                 0.5 * (t.maxilla.z + t.canine.z),
                 0.5 * (t.maxilla.y + t.canine.y),
                 nasal(t.nasion, t.rhinion, 0.5 * (t.maxilla.z + t.canine.z)),
-                0.45 * (t.maxilla.x + t.canine.x) + 1.5 * unit,
-                9.0 * unit,
+                0.45 * (t.maxilla.x + t.canine.x) + 1.5,
+                9.0,
             ),
             station(
                 t.canine.z,
                 t.canine.y,
                 nasal(t.nasion, t.rhinion, t.canine.z).max(t.nasoincisive.y),
-                t.canine.x + 1.8 * unit,
-                9.5 * unit,
+                t.canine.x + 1.8,
+                9.5,
             ),
-            station(t.incisor.z, t.incisor.y, t.nasoincisive.y, t.incisor.x + 3.0 * unit, t.nasoincisive.x),
-            station(
-                front + 1.5 * unit,
-                t.prosthion.y,
-                t.nasoincisive.y - 5.0 * unit,
-                t.incisor.x * 0.8,
-                t.incisor.x * 0.6,
-            ),
+            station(t.incisor.z, t.incisor.y, t.nasoincisive.y, t.incisor.x + 3.0, t.nasoincisive.x),
+            station(front + 1.5, t.prosthion.y, t.nasoincisive.y - 5.0, t.incisor.x * 0.8, t.incisor.x * 0.6),
         ]),
         12.0,
         true,
     );
     // The nose slopes back from the incisors to the nasals' end.
-    let slope = vec3(0.0, t.prosthion.z - t.rhinion.z, t.rhinion.y - t.prosthion.y - 4.0 * unit).normalize();
+    let slope = vec3(0.0, t.prosthion.z - t.rhinion.z, t.rhinion.y - t.prosthion.y - 4.0).normalize();
     b.push(Shape::Above(-slope, -slope.dot(t.rhinion)), 3.0, false);
     // Arches.
     b.bar(&[(t.meatus + mm(-7.0, 10.0, 9.0), 8.5), (t.condyle + mm(3.0, 11.5, -4.0), 5.5)], 12.0);
@@ -317,31 +311,27 @@ fn skull(t: &Targets<Vec3>, unit: f32) -> BoneField {
     // Taken away: orbit, nasal opening, foramen magnum, meatus, the hollow of the palate.
     let orbit = t.ectorbitale.lerp(t.orbit_rim, 0.5).lerp(t.entorbitale, 0.33);
     b.ball(orbit + mm(8.0, 0.5, -1.0), mm(15.0, 15.5, 19.0), 5.0, false);
-    b.ball(
-        vec3(0.0, t.nasoincisive.y - 2.0 * unit, t.rhinion.z + 8.0 * unit),
-        vec3(0.74 * t.nasoincisive.x, 7.0 * unit, 21.0 * unit),
-        3.0,
-        false,
-    );
+    // The fossa of the lacrimal sac, under the medial canthus.
+    b.ball(t.entorbitale + mm(6.5, 2.5, 5.5), mm(7.0, 7.0, 7.0), 3.0, false);
+    b.ball(vec3(0.0, t.nasoincisive.y - 2.0, t.rhinion.z + 8.0), vec3(0.74 * t.nasoincisive.x, 7.0, 21.0), 3.0, false);
     b.ball(0.5 * (t.opisthion + t.basion) - mm(0.0, 0.0, 6.0), mm(8.5, 7.6, 15.0), 3.0, false);
     b.ball(t.meatus + mm(3.0, 0.0, 0.0), mm(8.0, 3.8, 3.8), 2.0, false);
     b.ball(
         0.5 * (t.staphylion + t.prosthion) - mm(0.0, 6.0, 2.0),
-        vec3(0.66 * t.canine.x, 8.5 * unit, 0.46 * (t.prosthion.z - t.staphylion.z)),
+        vec3(0.66 * t.canine.x, 8.5, 0.46 * (t.prosthion.z - t.staphylion.z)),
         3.0,
         false,
     );
-    BoneField { bodies: b.bodies }
 }
 
-fn mandible(t: &Targets<Vec3>, unit: f32) -> BoneField {
-    let mm = |x: f32, y: f32, z: f32| vec3(x, y, z) * unit;
-    let mut b = Bodies { unit, bodies: Vec::new() };
+fn mandible(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
+    let mm = vec3;
+    let mut b = Bodies(bodies);
     let upper = [
         (t.infradentale + mm(4.0, -4.5, -3.5), 4.0),
-        (t.lower_canine + mm(-1.0, -5.0, 0.0), 5.0),
-        (t.lower_canine.lerp(t.lower_carnassial, 0.4) + mm(-0.5, -4.5, 0.0), 4.0),
-        (t.lower_carnassial + mm(0.0, -4.5, 0.0), 4.2),
+        (t.lower_canine + mm(-2.8, -4.6, -1.0), 3.7),
+        (t.lower_canine.lerp(t.lower_carnassial, 0.4) + mm(-2.2, -4.2, 0.0), 3.3),
+        (t.lower_carnassial + mm(-1.0, -4.5, 0.0), 3.8),
         (t.lower_last + mm(0.0, -5.0, 0.0), 4.4),
     ];
     let lower = [
@@ -362,7 +352,7 @@ fn mandible(t: &Targets<Vec3>, unit: f32) -> BoneField {
         8.0,
     );
     // What lies between the two rims.
-    let middle: Vec<(Vec3, f32)> = upper.iter().zip(&lower).map(|(a, b)| (0.5 * (a.0 + b.0), 4.4)).collect();
+    let middle: [(Vec3, f32); 5] = std::array::from_fn(|i| (0.5 * (upper[i].0 + lower[i].0), 4.4));
     b.bar(&middle, 8.0);
     // Ramus: a plate up to the coronoid process, hollow outside; condyle; angular process.
     let root = t.lower_last.lerp(t.body.lerp(t.gonion, 0.5), 0.5);
@@ -381,5 +371,4 @@ fn mandible(t: &Targets<Vec3>, unit: f32) -> BoneField {
     b.bar(&[(t.condyle + mm(-7.5, 0.0, 0.0), 3.8), (t.condyle + mm(6.5, 0.0, 0.0), 4.2)], 6.0);
     b.bar(&[(t.condyle + mm(-1.0, -3.0, 1.0), 3.6), (t.masseteric + mm(-3.0, -4.0, -6.0), 4.5)], 7.0);
     b.bar(&[(t.gonion + mm(-0.5, 6.0, 7.0), 4.2), (t.gonion + mm(0.0, 2.0, 2.2), 2.8)], 3.0);
-    BoneField { bodies: b.bodies }
 }

@@ -43,6 +43,11 @@ macro_rules! landmarks {
         pub struct Targets<T> { $(#[doc = $name] pub $key: T,)* }
 
         impl<T: Copy> Targets<T> {
+            /// With each point changed alike.
+            pub fn map(&self, mut f: impl FnMut(T) -> T) -> Self {
+                Targets { $($key: f(self.$key),)* }
+            }
+
             /// As a list, in the order of [`LANDMARKS`].
             pub fn list(&self) -> [T; LANDMARKS.len()] {
                 [$(self.$key,)*]
@@ -150,7 +155,9 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
 
     // Around the eye: it has its place and its size.
     let orbit = 0.5 + 0.5 * s.eye_r / 1.05;
-    let beside = |c: Vec3| s.eye() + (c - vec3(27.5, 36.0, 46.5)) / MM * orbit;
+    let before = vec3(1.0, 1.0, s.depth_of_orbit());
+    let beside =
+        |c: Vec3| s.eye() + (c - vec3(27.5, 36.0, 46.5)) / MM * orbit * if c.z > 46.5 { before } else { Vec3::ONE };
 
     // The face, in the muzzle's frame.
     let (w0, w1) = (0.5 * s.muz_w0, 0.5 * s.muz_w1);
@@ -192,6 +199,9 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         line(z, &[(40.0, alveolar0 - below(9.0)), (66.0, alveolar(66.0) - below(12.0)), (134.0, infradentale.y)])
     };
     let hinge_m = s.muzzle_from_head(hinge);
+    // Inside the lower lip, which hangs over the bone of broad short muzzles.
+    let lip1 = 0.86 * (0.62 * w1 + 0.8 * s.lip_t * s.slim()) - 0.35;
+    let lip0 = 0.93 * (0.87 * w0 + 0.55 * s.lip_t) - 0.5;
 
     let head = |p: Vec3| s.metres(p);
     let muzzle = |p: Vec3| s.metres(s.head_from_muzzle(p));
@@ -224,7 +234,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         coronion: head(vec3(0.65 * zw, up(36.0), along(12.0))),
         gonion: muzzle(hinge_m + vec3(0.69 * zw, -1.86, -0.6)),
         masseteric: head(vec3(0.706 * zw, hinge.y, along(16.0))),
-        body: muzzle(vec3(0.64 * w0 * jaw_w, floor(66.0), jaw_z(66.0))),
+        body: muzzle(vec3((0.64 * w0 * jaw_w).min(lip0 - 0.2), floor(66.0), jaw_z(66.0))),
         symphysis: muzzle(vec3(0.0, floor(101.0), jaw_z(101.0))),
         infradentale: muzzle(infradentale),
         gnathion: muzzle(vec3(0.0, floor(120.0) + 0.4, jaw_z(120.0))),
@@ -233,8 +243,8 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         occipital_condyle: head(occipital(canon.occipital_condyle)),
         paracondylar: head(cranial(canon.paracondylar)),
         asterion: head(occipital(canon.asterion)),
-        lower_canine: muzzle(vec3(0.60 * w1 * jaw_w, lower(124.0), jaw_z(124.0))),
-        lower_carnassial: muzzle(vec3(0.71 * w0 * jaw_w, lower(66.0), jaw_z(66.0))),
+        lower_canine: muzzle(vec3((0.60 * w1 * jaw_w).min(lip1), lower(124.0), jaw_z(124.0))),
+        lower_carnassial: muzzle(vec3((0.71 * w0 * jaw_w).min(lip0), lower(66.0), jaw_z(66.0))),
         lower_last: muzzle(vec3(0.80 * w0 * jaw_w, lower(40.0), jaw_z(40.0))),
         upper_last: muzzle(at(0.74 * w0, last.y, last.z)),
     }

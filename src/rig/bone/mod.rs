@@ -1,7 +1,7 @@
 //! Bone under the skin: skull, mandible and teeth, carried by the landmarks that the measures place.
 //!
 //! The control meshes are baked from the field of the canonical skull (`author::bone`). A head's bone is that skull under
-//! the map that takes the canonical landmarks to the head's own, kept at least a little way under the skin.
+//! the map that takes the canonical landmarks to the head's own.
 
 pub mod field;
 mod half;
@@ -13,7 +13,6 @@ pub use field::BoneField;
 pub use half::BoneHalf;
 pub use landmarks::{BoneMesh, LANDMARKS, Landmark, Targets, targets};
 
-use super::implicit::{Implicit, Layer};
 use super::proportions::Proportions;
 use super::{ControlError, Measures};
 use crate::mesh::DedgeMesh;
@@ -24,11 +23,6 @@ use warp::Warp;
 pub const SKULL: &str = include_str!("../../../assets/skull.ron");
 /// The mandible as baked.
 pub const MANDIBLE: &str = include_str!("../../../assets/mandible.ron");
-
-/// Skin over bone at least, head units.
-const LEAST_TISSUE: f32 = 0.2;
-/// Newton steps that keep bone under the skin.
-const STEPS: usize = 3;
 
 /// One bone, immutable.
 #[derive(Clone, Debug)]
@@ -95,13 +89,11 @@ impl Bones {
     pub fn shape(&self, measures: &Measures, proportions: &Proportions, out: &mut BonesOfHead) {
         let targets = targets(measures, proportions);
         let list = targets.list();
-        let skin = Implicit::new(proportions);
         let BonesOfHead { half, targets: meant, skull, mandible, upper_teeth, lower_teeth } = out;
         *meant = Some(targets);
         for (bone, whole) in [(&self.skull, skull), (&self.mandible, mandible)] {
             bone.warp.apply(&list, half);
             for (p, &middle) in half.iter_mut().zip(&bone.half.midline) {
-                *p = under_skin(*p, proportions, &skin);
                 if middle {
                     p.x = 0.0;
                 }
@@ -135,20 +127,4 @@ impl Bones {
         }
         indices
     }
-}
-
-/// The point, or where it comes to lie when the skin is too near.
-fn under_skin(p: Vec3, s: &Proportions, skin: &Implicit) -> Vec3 {
-    let mut q = s.proportional(p);
-    let mut moved = false;
-    for _ in 0..STEPS {
-        let (d, g) = skin.sample(q, Layer::Whole);
-        let over = d + LEAST_TISSUE;
-        if over <= 0.0 {
-            break;
-        }
-        q -= g * (over / g.length_squared().max(0.1)).min(0.6);
-        moved = true;
-    }
-    if moved { s.metres(q) } else { p }
 }

@@ -40,9 +40,13 @@ pub(super) fn place(pins: &mut Pins) {
         // Higher towards the nose: an inner half that slopes down reads as anger.
         let y = if sin > 0.0 { (1.0 + 0.16 * cos) * arch } else { -0.78 * arch } * s.eye_open
             - if k == 0 { 0.05 } else { 0.0 };
-        pins.set(pins.handles.er[k], on_ball(x, y, 1.10));
-        pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015));
-        let fold = on_ball(x * 1.20, y * if sin > 0.0 { 1.32 } else { 1.2 } - if k == 0 { 0.05 } else { 0.0 }, 1.16);
+        // The medial corner stands before the ball, over the rim of the orbit; the third lid lies in it.
+        let corner = [1.0, 0.45, 0.1].get(k.min(12 - k)).copied().unwrap_or(0.0);
+        let before = g * (r * s.canthus() * corner);
+        pins.set(pins.handles.er[k], on_ball(x, y, 1.10) + before);
+        pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015) + before * 0.8);
+        let down = if k == 0 { 0.05 } else { 0.0 };
+        let fold = on_ball(x * (1.20 + 0.18 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16) + before;
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free, but starts around this eye.

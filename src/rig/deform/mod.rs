@@ -1,5 +1,5 @@
-//! The function from proportions to the half mesh's control positions, in its written order: features, start, fit, ear,
-//! limit.
+//! The function from proportions to the half mesh's control positions, in its written order: features, start, fit,
+//! tissue over bone, ear, limit.
 
 mod ear;
 mod fit;
@@ -9,11 +9,12 @@ mod lips;
 mod mouth;
 mod nose;
 mod stations;
+mod tissue;
 
 use super::control::{HalfMesh, HalfRings};
 use super::handles::Handles;
 use super::implicit::{Implicit, Layer};
-use super::proportions::Proportions;
+use super::proportions::{Measures, Proportions};
 use crate::math::ops;
 use glam::Vec3;
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 pub use fit::{FitPlan, hollow, layers};
 pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
+use tissue::TissuePlan;
 
 /// Rounds of the live fit.
 pub const ROUNDS: usize = 10;
@@ -143,6 +145,7 @@ pub struct DeformPlan {
     rings: Arc<HalfRings>,
     fit: FitPlan,
     limit: LimitPlan,
+    tissue: TissuePlan,
     base: Vec<Vec3>,
     /// Where the base head's features put the held vertices; elsewhere the base.
     anchors: Vec<Vec3>,
@@ -155,6 +158,7 @@ pub struct Scratch {
     rounds: fit::Buffers,
     held: Vec<f32>,
     rays: Vec<Ray>,
+    bone: tissue::Fields,
 }
 
 impl DeformPlan {
@@ -181,12 +185,20 @@ impl DeformPlan {
         }
         let fit = FitPlan::new(half, &rings, &handles, &kinds.pinned, &kinds.guides, &leather);
         let limit = LimitPlan::new(half, &rings, &handles);
-        Self { handles, rings, fit, limit, base, anchors, midline: half.midline.clone() }
+        let tissue = TissuePlan::new(&handles);
+        Self { handles, rings, fit, limit, tissue, base, anchors, midline: half.midline.clone() }
     }
 
     /// Control positions of the half (`out`: its length) in the proportions' frame and head units, after `rounds` rounds of
     /// the fit ([`ROUNDS`] live).
-    pub fn run(&self, shape: &Proportions, rounds: usize, scratch: &mut Scratch, out: &mut [Vec3]) {
+    pub fn run(
+        &self,
+        measures: &Measures,
+        shape: &Proportions,
+        rounds: usize,
+        scratch: &mut Scratch,
+        out: &mut [Vec3],
+    ) {
         let surface = Implicit::new(shape);
         self.features(shape, &surface, &mut scratch.rays, out);
         for &v in self.handles.a.iter().flatten().chain(&self.handles.a5) {
@@ -198,6 +210,7 @@ impl DeformPlan {
         }
         self.fit.start(&self.base, &self.anchors, out, &mut scratch.held);
         self.fit.relax(&surface, out, &mut scratch.rounds, shape.eye_r, rounds);
+        self.tissue.carry(measures, shape, &surface, &mut scratch.bone, out);
         self.finish(shape, &surface, scratch, out);
     }
 
