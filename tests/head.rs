@@ -486,7 +486,8 @@ impl<'a> Checker<'a> {
         faults.check(folds.is_empty(), || format!("{who}: folded: {}", folds.join(", ")));
         let (hidden, crossings): (Vec<_>, Vec<_>) =
             skin.crossings().into_iter().partition(|pair| pair.iter().any(|&f| self.is_hidden(f)));
-        faults.check(crossings.len() <= MOST_CROSSINGS, || {
+        let ears = crossings.iter().filter(|pair| pair.iter().all(|&f| self.is_ear(f))).count();
+        faults.check(crossings.len() - ears <= MOST_CROSSINGS && ears <= MOST_IN_EARS, || {
             format!("{who}: {} pairs of triangles cross in sight: {}", crossings.len(), self.where_crossed(&crossings))
         });
         faults.check(hidden.len() <= MOST_HIDDEN, || {
@@ -497,7 +498,7 @@ impl<'a> Checker<'a> {
         let through = ball_through_lids(world, &head.eyes[0], fine.positions, fine.indices);
         faults.check(through < 0.005, || format!("{who}: the eyeball stands {through:.2} radii out of its lids"));
         let (low, high) = margin_reach(world, &head.eyes[0], fine.positions);
-        faults.check(low > 1.04 && high < 1.15, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
+        faults.check(low > 1.04 && high < 1.26, || format!("{who}: lid margin at {low:.2} to {high:.2} radii"));
         println!(
             "{who}: smallest area {area:.3} mm², volume {litres:.2} l, {} folds, {} crossings ({}), {} hidden, ball {through:.3}, lids {low:.3} to {high:.3}",
             folds.len(),
@@ -514,6 +515,12 @@ impl<'a> Checker<'a> {
         let corners = &self.world.rig.mesh().indices()[parent..parent + 3];
         let inside = [Region::Mouth, Region::UpperLip, Region::LowerLip, Region::Nostril];
         corners.iter().any(|&v| inside.contains(&regions[v as usize]))
+    }
+
+    fn is_ear(&self, face: usize) -> bool {
+        let regions = self.world.rig.half().whole_regions();
+        let first = self.world.rig.mesh().indices()[3 * self.skin.face_parent()[face] as usize];
+        matches!(regions[first as usize], Region::EarOuter | Region::EarInner | Region::EarEdge)
     }
 
     /// How many pairs cross between which regions, most first.
@@ -533,9 +540,10 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight. Most heads have none; a rose ear lies
-/// folded on itself with some twenty, and none is known to do without.
-const MOST_CROSSINGS: usize = 24;
+/// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight. Most heads have none.
+const MOST_CROSSINGS: usize = 22;
+/// Leather that lies folded on itself at its root crosses itself there.
+const MOST_IN_EARS: usize = 44;
 /// And where lips, lining or nostrils lie on each other.
 const MOST_HIDDEN: usize = 32;
 

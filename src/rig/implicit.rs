@@ -58,6 +58,8 @@ impl Implicit {
         let (neck_a, neck_dir) = s.neck_axis();
         let neck_x = s.neck_w / s.neck_d;
         let pad = 0.35 + 0.65 * s.slim();
+        let full = (length / 8.0).min(1.0) * (length / 8.0).min(1.0);
+        let high = (bridge0 + 1.2).clamp(0.0, 1.8);
         let roll = {
             // Without a roll the ropes are so thin that they touch nothing: the slider starts without a jump.
             let inset = 1.3 * (1.0 - s.wrinkle) * (1.0 - s.wrinkle);
@@ -79,10 +81,10 @@ impl Implicit {
                     1.0,
                 ),
                 (
-                    Ellipsoid::new(
-                        vec3(0.0, 0.18 * ch - 1.3 + 0.35 * dome, -0.26 * cl),
-                        vec3(0.80 * cw, 2.5 + 0.5 * dome + 0.12 * ch, 0.25 * cl + 0.2),
-                    ),
+                    {
+                        let (height, depth) = s.forehead();
+                        Ellipsoid::new(vec3(0.0, height - depth.x, -0.26 * cl), vec3(0.80 * cw, depth.x, depth.y))
+                    },
                     2.0,
                 ),
                 (
@@ -101,7 +103,13 @@ impl Implicit {
                 ),
             ],
             furrow: (
-                Cone::new(vec3(0.0, 1.0, 0.6), vec3(0.0, ch + 0.4, -0.4 * cl), 0.35 + 0.3 * s.furrow, 0.2),
+                // It ends over the stop, clear of a bridge that stands high.
+                Cone::new(
+                    vec3(0.0, 1.0 + 0.8 * high, 0.6 - 0.5 * high),
+                    vec3(0.0, ch + 0.4, -0.4 * cl),
+                    0.35 + 0.3 * s.furrow,
+                    0.2,
+                ),
                 1.2 * s.furrow.max(0.0) + 0.05,
             ),
             brow: (
@@ -115,12 +123,12 @@ impl Implicit {
             ),
             zygoma: {
                 let a = vec3(0.98 * eye.x, s.zyg_y + 0.35, eye.z + 0.2);
-                let b = vec3(zw - 2.05, s.zyg_y + 0.2, -0.36 * cl);
-                let c = vec3(zw - 2.6, s.zyg_y + 0.9, -0.62 * cl);
+                let b = vec3(zw - 2.0, s.zyg_y + 0.2, -0.36 * cl);
+                let c = vec3(zw - 2.8, s.zyg_y + 0.9, -0.62 * cl);
                 [Cone::new(a, b, 1.35, 1.8), Cone::new(b, c, 1.8, 1.8)]
             },
             masseter: Ellipsoid::turned(
-                vec3(zw - 2.9, s.zyg_y - 2.3, -0.38 * cl),
+                vec3(zw - 2.75, s.zyg_y - 2.3, -0.38 * cl),
                 vec3(2.2 + 0.5 * s.cheek, 3.0 + 0.3 * s.cheek, 3.4),
                 15.0,
             ),
@@ -137,7 +145,8 @@ impl Implicit {
                 bottom: (lip0 - 0.2, lip1),
                 arch: s.roman,
                 top_width: s.bridge_w,
-                sides: (0.16, 0.08),
+                // A short muzzle ends beside the eyes: its sides stay flat.
+                sides: (0.16 * full, 0.08 * full),
                 rounding: 0.62,
             },
             whisker_pad: Ellipsoid::new(

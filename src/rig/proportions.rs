@@ -5,7 +5,7 @@
 //! origin at the skin of the nasion, x to the dog's left, y up, z forward.
 
 use crate::math::ops;
-use glam::{Vec3, vec3};
+use glam::{Vec2, Vec3, vec2, vec3};
 
 macro_rules! measures {
     ($($field:ident = $id:literal),* $(,)?) => {
@@ -311,7 +311,7 @@ impl Proportions {
     }
     /// Height of the bridge at its root, muzzle frame.
     pub fn bridge0(&self) -> f32 {
-        -(0.05 + 0.185 * self.stop) * self.stop
+        0.5 - 0.66 * self.stop
     }
     /// Height of the bridge at the nose, muzzle frame.
     pub fn bridge1(&self) -> f32 {
@@ -341,13 +341,19 @@ impl Proportions {
     pub fn eye(&self) -> Vec3 {
         vec3(self.eye_x, self.eye_y, self.eye_z)
     }
+    /// The forehead's body: height of its top, and its radii upwards and forwards about a middle that lies 0.26 of the
+    /// cranium behind the nasion.
+    pub fn forehead(&self) -> (f32, Vec2) {
+        let radii = vec2(2.5 + 0.5 * self.dome + 0.12 * self.cran_h, 0.25 * self.cran_len + 0.2);
+        (0.18 * self.cran_h - 1.3 + 0.35 * self.dome + radii.x, radii)
+    }
     /// How deep the eye lies behind the edge of the orbit: 1 on long faces, less where a short one pushes it forward.
     pub fn depth_of_orbit(&self) -> f32 {
         0.25 + 0.75 * (self.muz_len / 8.5).min(1.0)
     }
     /// How far the medial canthus stands before the ball, as a part of the ball's radius.
     pub fn canthus(&self) -> f32 {
-        0.22 * self.depth_of_orbit()
+        0.15 * self.depth_of_orbit()
     }
     /// Midpoint of the mandibular condyles: the origin of the head's frame.
     pub fn hinge(&self) -> Vec3 {

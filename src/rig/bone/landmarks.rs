@@ -125,7 +125,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
     let hinge = s.hinge();
 
     // The median profile, in the frame of the proportions (origin at the skin of the nasion).
-    let nasion = vec3(0.0, -TISSUE - 0.45 * (s.stop - 1.9).max(0.0), -0.35 - 0.06 * (s.muz_len - 9.0).clamp(0.0, 4.0));
+    let nasion = vec3(0.0, -TISSUE - 0.5 * (s.stop - 1.7).max(0.0), -0.35 - 0.06 * (s.muz_len - 9.0).clamp(0.0, 4.0));
     let rise = (s.cran_h - 2.4 + 0.5 * s.occiput - nasion.y).clamp(-0.6 * cranium, 0.6 * cranium);
     let akrokranion = nasion + vec3(0.0, rise, -ops::sqrt(cranium * cranium - rise * rise));
     let base = hinge.y;
@@ -145,6 +145,12 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
                 (64.0, crown),
             ],
         )
+    };
+    // Frontal bone stays under a forehead that is round rather than high.
+    let forehead = {
+        let (top, radii) = s.forehead();
+        let from_middle = ((along(28.0) + 0.26 * s.cran_len) / radii.y).clamp(-1.0, 1.0);
+        top - radii.x * (1.0 - ops::sqrt(1.0 - from_middle * from_middle)) - 0.25
     };
     let wide = |x: f32| x / 29.7 * cw;
     let cranial = |c: Vec3| vec3(wide(c.x), up(c.y), along(c.z));
@@ -209,7 +215,7 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         prosthion: muzzle(prosthion),
         rhinion: muzzle(vec3(0.0, bridge(121.0), out(121.0))),
         nasion: head(nasion),
-        glabella: head(vec3(0.0, up(58.0), along(28.0))),
+        glabella: head(vec3(0.0, up(58.0).min(forehead), along(28.0))),
         bregma: head(vec3(0.0, up(63.0), along(-5.0))),
         vertex: head(vec3(0.0, up(64.0), along(-18.0))),
         akrokranion: head(akrokranion),

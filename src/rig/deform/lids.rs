@@ -46,7 +46,7 @@ pub(super) fn place(pins: &mut Pins) {
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10) + before);
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015) + before * 0.8);
         let down = if k == 0 { 0.05 } else { 0.0 };
-        let fold = on_ball(x * (1.20 + 0.18 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16) + before;
+        let fold = on_ball(x * (1.20 + 0.06 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16) + before;
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free, but starts around this eye.

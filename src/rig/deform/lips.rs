@@ -29,7 +29,7 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
         return vec3(x, y, s.muz_len - 0.3 - depth * (1.0 - cos));
     }
     let u = (t - FRONT) / (1.0 - FRONT);
-    let corner = vec3(0.87 * w0 + 0.55 * lt, y0, s.corner_z);
+    let corner = vec3(0.9 * w0 + 0.65 * lt, y0, s.corner_z);
     let raise = (s.muz_w1 / 5.6).min(1.0) * (0.65 + 0.28 * fl) * smoothstep(0.55, 1.0, u);
     side + (corner - side) * u + vec3(0.0, raise, 0.0)
 }

@@ -51,6 +51,8 @@ impl TissuePlan {
     pub(super) fn new(handles: &Handles) -> Self {
         let over = |vertex: u16, least: f32, layer: Layer| Carried { vertex, least, layer };
         let upper = (1..20).flat_map(|i| (0..10).map(move |j| (i, j))).filter(|&(i, j)| j < 9 || i < 3 || i > 10);
+        // Nor the temple, where muscle lies over the bone and the ear's base is near.
+        let upper = upper.filter(|&(i, j)| !((12..=13).contains(&i) && (1..=6).contains(&j)));
         let upper = upper.map(|(i, j)| {
             let least = match (i, j) {
                 (16, 5..=7) => MASTOID,
@@ -61,6 +63,8 @@ impl TissuePlan {
         });
         let lower = (3..20)
             .flat_map(|i| (10..15).map(move |j| (i, j)))
+            // Beside the lip's margin the lower lip would come through the upper.
+            .filter(|&(i, j)| i > 3 && (j > 10 || i > 5))
             .map(|(i, j)| over(handles.l[i][j], LOWER, if i > 10 { Layer::Whole } else { Layer::Lower }));
         let lids = handles.of.into_iter().map(|v| over(v, MARGIN, Layer::Whole));
         // The ear's base is one loop that its leather grows from; pushed here and there it would cross itself.
