@@ -110,20 +110,35 @@ fn a_slider_does_not_move_its_own_measure() {
 /// Where skin may lie in the bone, and how deep, millimetres on a skull of 200: control vertices by the start of their
 /// names. Elsewhere it may not, to a third of a millimetre.
 const THIN: &[(&str, f32)] = &[
-    // The lower lids, whose margin lies on the ball: the orbit of a short face is shallow.
-    ("er.", 2.2),
-    ("ei.", 2.2),
-    ("of.", 1.0),
+    // The corner of the lids beside the nose and the lower lid, whose margin lies on the ball: the orbit of a short face is
+    // shallow, that of a narrow one near the bridge.
+    ("er.", 2.5),
+    ("ei.", 3.3),
+    ("of.", 3.5),
+    ("s.8.", 4.8),
     // Below the ear's base, where the nuchal crest of small lean heads ends.
-    ("s.15.5", 2.6),
-    ("s.16.", 2.6),
-    ("a1.6", 2.6),
-    // The lower lip of undershot dogs, at the necks of their teeth.
-    ("l.", 1.4),
+    ("s.16.6", 4.3),
+    ("s.16.", 1.5),
+    ("s.15.", 1.0),
+    ("a0.", 0.7),
+    ("a1.", 0.7),
+    // The lower lip of undershot dogs and its lining, at the necks of their teeth.
+    ("l.5.9", 3.6),
+    ("l.6.9", 3.6),
+    ("l.7.9", 3.6),
+    ("l.8.", 2.5),
+    ("l.", 1.8),
     ("mu.", 1.4),
-    // The cheek of the Pekingese.
-    ("s.9.", 2.2),
-    ("s.10.", 2.2),
+    ("ml.", 1.4),
+    // The furrow of domed foreheads.
+    ("s.9.0", 2.7),
+    ("s.10.0", 3.4),
+    ("s.10.1", 2.4),
+    ("s.11.1", 2.4),
+    // The cheek of toys and of the Pekingese.
+    ("s.9.", 1.5),
+    ("s.10.", 1.5),
+    ("s.12.6", 2.4),
 ];
 
 /// Every vertex of the level-3 skin of every breed and of some blends, but of the mouth's lining, against the bone's

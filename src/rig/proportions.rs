@@ -311,7 +311,9 @@ impl Proportions {
     }
     /// Height of the bridge at its root, muzzle frame.
     pub fn bridge0(&self) -> f32 {
-        0.5 - 0.66 * self.stop
+        // A short face has no room for a bridge above the nasion.
+        let long = (self.muz_len / 9.0).min(1.0);
+        0.5 * long * long - 0.66 * self.stop
     }
     /// Height of the bridge at the nose, muzzle frame.
     pub fn bridge1(&self) -> f32 {
