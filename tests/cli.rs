@@ -316,8 +316,35 @@ fn a_measure_has_no_value_unit_or_rank() {
     };
     assert!((of("zygomatic_width_mm=100") - 100.0).abs() < 0.1 && (of("zygomatic_width_mm=120") - 120.0).abs() < 0.1);
     let table = done(&["measure", "--breed", "borzoi"]).stdout;
-    assert!(table.starts_with("Borzoi: dolichocephalic") && table.lines().count() == list.len() + 1, "{table}");
+    let measured = table.lines().filter(|l| l.contains("  bone: ") || l.contains("  skin: ")).count();
+    assert!(table.starts_with("Borzoi: dolichocephalic") && measured == list.len(), "{table}");
     refused(&["measure"], 2, &["--breed"]);
+}
+
+#[test]
+fn a_reference_is_told_without_its_status_source_or_deviation() {
+    let found: Value = serde_json::from_str(&done(&["measure", "--breed", "wolf", "--json"]).stdout).unwrap();
+    let list = found["measurements"].as_array().unwrap();
+    let of = |id: &str| list.iter().find(|m| m["id"] == id).unwrap();
+    let width = of("zygomatic_width");
+    let reference = &width["references"][0];
+    assert_eq!((&reference["status"], &reference["value"]), (&Value::from("measured"), &Value::from(142.5)));
+    assert!(reference["source"].as_str().unwrap().contains("two skulls"));
+    let off = width["value"].as_f64().unwrap() - 142.5;
+    assert!((reference["deviation"].as_f64().unwrap() - off).abs() < 2e-3, "{width}");
+    assert!((reference["deviation_percent"].as_f64().unwrap() - off / 1.425).abs() < 2e-3, "{width}");
+    assert!(of("orbital_angle")["references"].as_array().unwrap().is_empty());
+    assert_eq!(found["references"][0]["measure"], "body_mass");
+    let table = done(&["measure", "--breed", "wolf"]).stdout;
+    for word in ["off by ", "; measured: two skulls", "; computed: condylobasal", "; estimated: ", "body mass: 40 kg"] {
+        assert!(table.contains(word), "{word}: {table}");
+    }
+    let mix = ["measure", "--breed", "wolf", "--blend", "pug=0.5"];
+    assert!(!done(&mix).stdout.contains("off by"), "a mix is held against nothing");
+    let breeds: Value = serde_json::from_str(&done(&["list", "breeds", "--json"]).stdout).unwrap();
+    let pug = breeds.as_array().unwrap().iter().find(|b| b["id"] == "pug").unwrap();
+    assert_eq!((&pug["fci_group"], &pug["reference_class"]), (&Value::from(9), &Value::from("brachycephalic")));
+    assert!(pug["references"].as_array().unwrap().len() > 5);
 }
 
 #[test]

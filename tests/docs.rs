@@ -7,8 +7,8 @@ mod known_breeds;
 #[path = "support/settings.rs"]
 mod settings;
 
-use known_breeds::{CLASSES, Known, LIVE_AND_BONE, REFERENCES, Standing, live_ratio};
-use londra::anatomy::{Breed, ParamSpec, ParamTable, Unit};
+use known_breeds::{LIVE_AND_BONE, is_class, live_ratio};
+use londra::anatomy::{ParamSpec, ParamTable, Reference, Status, Unit};
 use settings::World;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -91,21 +91,23 @@ fn manual_of_parameters_is_stale() {
 
 // ---- breeds ----
 
-fn standing(known: Known) -> &'static str {
-    match known.1 {
-        Standing::Measured => "m",
-        Standing::Computed => "c",
-        Standing::Estimated => "e",
+/// The letter of a reference's standing, as the page explains them.
+fn standing(reference: &Reference) -> &'static str {
+    match reference.status {
+        Status::Measured => "m",
+        Status::Computed => "c",
+        Status::Estimated => "e",
     }
 }
 
 fn breeds_text(world: &World) -> String {
     let mut out = format!(
         "# Breeds\n\n\
-         <!-- Written from rigs/breeds and tests/support/known_breeds.rs by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
+         <!-- Written from rigs/breeds by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
          {} heads are part of the program.\n\
-         Each file in `rigs/breeds` begins with the sources of its numbers and sets what matters for the breed; the rest follows.\n\n\
-         Beside each number stands what it is held against: m measured, c computed from a measured number, e estimated.\n\
+         Each file in `rigs/breeds` has the references that it is held against, each with its status and source, and sets what matters for the breed; the rest follows.\n\
+         `londra measure` prints them beside what it measures.\n\n\
+         Beside each number stands what it is held against: m measured, c computed from other numbers by a stated rule, e estimated.\n\
          Estimates are by laws of size and breed standards, not by measured breed means, of which hardly any could be had; they are uncertain by some 10 % in length, 5 points of index and 0.07 in the ratio.\n\n\
          - Skull length on bone: facial and cranial length, which meet at the nasion under 148 degrees. Held to 3 %.\n\
          - Zygomatic width on bone, as the file has it. Held to 3 %.\n\
@@ -117,31 +119,25 @@ fn breeds_text(world: &World) -> String {
          | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         world.breeds.len()
     );
-    for row in REFERENCES {
-        let breed = world.breed(row.id);
+    for breed in world.breeds.iter().filter(|b| !is_class(b)) {
         let value = |id: &str| breed.values[world.row(id)];
+        let known = |id: &str| breed.reference(id).unwrap_or_else(|| panic!("{}: no reference for {id}", breed.id));
         let (skull, width) = (1e3 * world.skull_length(&breed.values), 1e3 * value("zygomatic_width_mm"));
         let bone = value("facial_length_mm") / value("cranial_length_mm");
         let (index, ratio) = (100.0 * width / skull, live_ratio(bone));
-        let group = if row.group == 0 { String::new() } else { row.group.to_string() };
-        let part = |found: f32, known: Known| format!("{:+.1} %", 100.0 * (found / known.0 - 1.0));
-        let _ = writeln!(
-            out,
-            "| {} | {group} | {skull:.0} | {:.0} {} | {} | {width:.0} | {:.0} {} | {} | {index:.1} | {:.1} {} | {:+.1} | {bone:.2} | {ratio:.2} | {:.2} {} | {:+.2} |",
-            breed.label,
-            row.skull.0,
-            standing(row.skull),
-            part(skull, row.skull),
-            row.width.0,
-            standing(row.width),
-            part(width, row.width),
-            row.index.0,
-            standing(row.index),
-            index - row.index.0,
-            row.ratio.0,
-            standing(row.ratio),
-            ratio - row.ratio.0,
-        );
+        let group = breed.fci_group.map_or(String::new(), |group| group.to_string());
+        let _ = write!(out, "| {} | {group} |", breed.label);
+        for (found, id) in [(skull, "skull_length"), (width, "zygomatic_width")] {
+            let (reference, value) = (known(id), known(id).value as f32);
+            let off = 100.0 * (found / value - 1.0);
+            let _ = write!(out, " {found:.0} | {value:.0} {} | {off:+.1} % |", standing(reference));
+        }
+        let reference = known("skull_index");
+        let off = index - reference.value as f32;
+        let _ = write!(out, " {index:.1} | {:.1} {} | {off:+.1} | {bone:.2} |", reference.value, standing(reference));
+        let reference = known("craniofacial_ratio");
+        let off = ratio - reference.value as f32;
+        let _ = writeln!(out, " {ratio:.2} | {:.2} {} | {off:+.2} |", reference.value, standing(reference));
     }
     out.push_str(
         "\nTwo ratios are not met: the Pekingese's facial length stands at the end of its range, and a shorter muzzle folds the pug's stop.\n\n\
@@ -152,25 +148,24 @@ fn breeds_text(world: &World) -> String {
     }
     out.push_str(
         "\n## The three classes\n\n\
-         The class averages were recalled, not sourced, so indices alone are compared, within 5 %.\n\
+         The class averages of cranial and facial index were recalled, not sourced, and lengths differ with the size of the dogs, so indices alone are compared, within 5 %.\n\
          Skull index: width over skull length; cranial index: braincase width over cranial length; facial index: width over facial length; all times 100, on bone.\n\n\
          | Head | Skull index | Class | Cranial index | Class | Facial index | Class |\n| --- | --- | --- | --- | --- | --- | --- |\n",
     );
-    for (id, class) in CLASSES {
-        let breed: &Breed = world.breed(id);
+    for breed in world.breeds.iter().filter(|b| is_class(b)) {
         let value = |id: &str| breed.values[world.row(id)];
         let width = value("zygomatic_width_mm");
-        let _ = writeln!(
-            out,
-            "| {} | {:.1} | {} | {:.1} | {} | {:.1} | {} |",
-            breed.label,
-            100.0 * width / world.skull_length(&breed.values),
-            class[0],
-            100.0 * value("cranial_width_mm") / value("cranial_length_mm"),
-            class[1],
-            100.0 * width / value("facial_length_mm"),
-            class[2],
-        );
+        let found = [
+            ("skull_index", width / world.skull_length(&breed.values)),
+            ("cranial_index", value("cranial_width_mm") / value("cranial_length_mm")),
+            ("facial_index", width / value("facial_length_mm")),
+        ];
+        let _ = write!(out, "| {} |", breed.label);
+        for (id, found) in found {
+            let reference = breed.reference(id).unwrap_or_else(|| panic!("{}: no reference for {id}", breed.id));
+            let _ = write!(out, " {:.1} | {} {} |", 100.0 * found, reference.value, standing(reference));
+        }
+        out.push('\n');
     }
     out
 }

@@ -36,6 +36,16 @@ pub enum Dimension {
     Ratio,
 }
 
+impl Tissue {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tissue::Bone => "bone",
+            Tissue::Skin => "skin",
+        }
+    }
+}
+
 impl Dimension {
     /// The unit behind a number; nothing behind a pure one.
     pub fn unit(self) -> &'static str {
@@ -44,6 +54,11 @@ impl Dimension {
             Dimension::Degree => "deg",
             Dimension::Percent | Dimension::Ratio => "",
         }
+    }
+
+    /// How many digits behind the point mean something.
+    pub fn decimals(self) -> usize {
+        if self == Dimension::Ratio { 2 } else { 1 }
     }
 }
 
