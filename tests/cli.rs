@@ -45,9 +45,11 @@ fn help_and_version_go_to_stdout() {
         "view",
         "render",
         "sheet",
+        "atlas",
         "breed",
         "export",
         "hash",
+        "measure",
         "landmarks",
         "list",
         "check",
@@ -537,6 +539,53 @@ fn sheet_draws_the_breeds_and_views_asked_for() {
     assert_eq!(facts["views"].as_array().unwrap().len(), 2);
     assert_eq!(png_size(&std::fs::read(&path).unwrap()), (200, 150));
     refused(&["sheet", "--breeds", "pug,pgu", "-o", text(&path)], 2, &["unknown breed 'pgu'", "did you mean pug?"]);
+}
+
+#[test]
+fn an_atlas_has_not_a_strip_for_each_measure_of_its_groups() {
+    let folder = folder();
+    let path = folder.path().join("atlas.png");
+    let small = ["atlas", "--size", "24x30", "--group", "neck", "--json", "-o", text(&path)];
+    let facts: Value = serde_json::from_str(&done(&small).stdout).unwrap();
+    let neck: Vec<Value> = parameters().into_iter().filter(|p| p["group"] == "Neck").map(|p| p["id"].clone()).collect();
+    let drawn = facts["parameters"].as_array().unwrap();
+    assert_eq!(drawn.iter().map(|p| p["id"].clone()).collect::<Vec<_>>(), neck);
+    for parameter in drawn {
+        assert!(parameter["change"].as_f64().unwrap() > 2.0, "nothing is seen of {parameter}");
+    }
+    let (width, height) = png_size(&std::fs::read(&path).unwrap());
+    assert_eq!((&facts["files"][0]["width"], &facts["files"][0]["height"]), (&width.into(), &height.into()));
+    assert!(width >= 3 * 3 * 24 && height > 30);
+
+    let split = ["atlas", "--size", "16x16", "--split", "--group", "Neck", "--group", "nose", "--view", "side"];
+    let run = done(&[&split[..], &["--breed", "pug", "--columns", "1", "-o", text(&path)]].concat());
+    assert!(run.stderr.contains("atlas_nose.png") && run.stderr.contains("atlas_neck.png"), "{}", run.stderr);
+    assert_eq!(names_in(folder.path()), ["atlas.png", "atlas_neck.png", "atlas_nose.png"]);
+
+    refused(&["atlas", "--split", "-o", "-"], 2, &["--split writes several files"]);
+    refused(
+        &["atlas", "--group", "eers", "-o", "a.png"],
+        2,
+        &["unknown group 'eers'", "did you mean ears?", "lips-and-jaw"],
+    );
+    refused(&["atlas", "--columns", "0", "-o", "a.png"], 2, &["--columns"]);
+}
+
+#[test]
+fn lines_are_not_drawn_over_a_sheet() {
+    let folder = folder();
+    let draw = |name: &str, lines: &[&str]| {
+        let path = folder.path().join(name);
+        let sheet =
+            ["sheet", "--breeds", "pug", "--views", "side", "--level", "1", "--size", "80x90", "-o", text(&path)];
+        done(&[&sheet[..], lines].concat());
+        std::fs::read(&path).unwrap()
+    };
+    let [plain, control, refined] =
+        [draw("a.png", &[]), draw("b.png", &["--wireframe"]), draw("c.png", &["--wireframe=refined"])];
+    assert_eq!(png_size(&plain), png_size(&control));
+    assert!(plain != control && control != refined && plain != refined);
+    refused(&["sheet", "--wireframe=thin", "-o", "a.png"], 2, &["control", "refined"]);
 }
 
 #[test]
