@@ -53,14 +53,18 @@ fn text(table: &ParamTable) -> String {
          <!-- Written from rigs/anatomy.ron by `UPDATE_DOCS=1 cargo test --test docs`. Edit that file, not this. -->\n\n\
          A head has {} measures.\n\
          Their ids are the keys of breed files and of `--set`, in the unit that the id ends in.\n\
-         A value that nobody has set may follow another one: value = default × (other / other's default) ^ exponent, within its range.\n\n",
+         A value that nobody has set may follow another one: value = default × (other / other's default) ^ exponent, within its range.\n\n\
+         The pictures show a Labrador with each measure at the low end, in the middle and at the high end of its range, all others as they are, from where it is seen best.\n\
+         `londra atlas --split -o docs/atlas.png` draws them; `londra atlas -o atlas.png` draws them in one picture.\n\n",
         table.specs.len()
     );
     let mut group = "";
     for spec in &table.specs {
         if spec.group != group {
             group = &spec.group;
-            let _ = writeln!(out, "## {group}\n");
+            let slug = group.to_lowercase().replace(' ', "-");
+            let _ =
+                writeln!(out, "## {group}\n\n![Each measure of this group, low, middle and high](atlas_{slug}.png)\n");
         }
         out.push_str(&entry(table, spec));
     }
@@ -106,7 +110,7 @@ fn breeds_text(world: &World) -> String {
          <!-- Written from rigs/breeds by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
          {} heads are part of the program.\n\
          Each file in `rigs/breeds` has the references that it is held against, each with its status and source, and sets what matters for the breed; the rest follows.\n\
-         `londra measure` prints them beside what it measures.\n\n\
+         `londra measure` prints them beside what it measures, and [heads.png](heads.png) shows all heads at one scale (`make heads`).\n\n\
          Beside each number stands what it is held against: m measured, c computed from other numbers by a stated rule, e estimated.\n\
          Estimates are by laws of size and breed standards, not by measured breed means, of which hardly any could be had; they are uncertain by some 10 % in length, 5 points of index and 0.07 in the ratio.\n\n\
          - Skull length on bone: facial and cranial length, which meet at the nasion under 148 degrees. Held to 3 %.\n\
@@ -194,5 +198,23 @@ fn a_page_has_a_place_that_was_to_be_filled_in() {
     for page in pages.filter(|path| path.extension().is_some_and(|e| e == "md")) {
         let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
         assert_eq!(open_places(&text), [""; 0], "{}", page.display());
+    }
+}
+
+#[test]
+fn a_page_shows_a_picture_that_is_not_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for page in [
+        root.join("README.md"),
+        root.join("docs/head.md"),
+        root.join("docs/parameters.md"),
+        root.join("docs/breeds.md"),
+    ] {
+        let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+            let is_here = !link.is_empty() && !link.contains("://");
+            let target = page.parent().map(|folder| folder.join(link)).unwrap_or_default();
+            assert!(!is_here || target.exists(), "{} links to {link}", page.display());
+        }
     }
 }
