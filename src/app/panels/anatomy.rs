@@ -57,7 +57,7 @@ fn groups(state: &EditorState, found: &[usize]) -> Vec<(String, Vec<usize>)> {
 const BEYOND_SIGHT: f32 = 100.0;
 /// For a number of three decimals and its unit, and for the reset arrow, points. A row that is wider pushes the panel wider in
 /// every picture.
-const NUMBER_WIDTH: f32 = 84.0;
+const NUMBER_WIDTH: f32 = 92.0;
 const RESET_WIDTH: f32 = 22.0;
 
 /// A row, or the room that it took last time while it is scrolled out of sight: most of sixty rows are.

@@ -47,7 +47,10 @@ fn class(state: &mut EditorState, ui: &mut egui::Ui) {
         }
         ui.strong(SkullClass::of(index).name());
     });
-    ui.weak(format!("p: percentile among {among}; last, the reference and how far off it is"));
+    ui.weak(format!(
+        "p: percentile among {among}. At the right what the breed is held against (m measured, c computed, e estimated), and \
+         how far off this head is."
+    ));
 }
 
 fn row(state: &EditorState, ui: &mut egui::Ui, k: usize, m: &Measurement) {
@@ -60,8 +63,9 @@ fn row(state: &EditorState, ui: &mut egui::Ui, k: usize, m: &Measurement) {
     ui.label(RichText::new(rank).monospace().weak());
     match state.breed().reference(m.id) {
         Some(first) => {
-            let text = format!("{:.*} {}", m.dimension.decimals(), first.value, Deviation::of(m, first));
-            ui.label(RichText::new(text).monospace().small()).on_hover_ui(|ui| {
+            let (letter, off) = (&first.status.name()[..1], Deviation::of(m, first));
+            let text = format!("{:.*} {letter} {off}", m.dimension.decimals(), first.value);
+            ui.label(RichText::new(text).monospace().weak()).on_hover_ui(|ui| {
                 for known in state.breed().references.iter().filter(|r| r.quantity.id == m.id) {
                     ui.label(told(m, known));
                 }
