@@ -275,3 +275,17 @@ fn a_part_is_inside_out() {
         }
     }
 }
+
+#[test]
+fn a_landmark_without_its_bones_is_not_the_one_on_them() {
+    let world = World::embedded();
+    let bones = bones();
+    for breed in world.spanning() {
+        let values = &breed.values;
+        let on_them = of_head(&world, &bones, values);
+        for (id, alone) in bones.landmarks_alone(&world.rig.measures(values), &world.rig.proportions(values)) {
+            let there = bones.landmark(id, &on_them).unwrap_or_else(|| panic!("{id}"));
+            assert_eq!(alone.to_array().map(f32::to_bits), there.to_array().map(f32::to_bits), "{}: {id}", breed.id);
+        }
+    }
+}

@@ -45,9 +45,11 @@ fn help_and_version_go_to_stdout() {
         "view",
         "render",
         "sheet",
+        "atlas",
         "breed",
         "export",
         "hash",
+        "measure",
         "landmarks",
         "list",
         "check",
@@ -316,8 +318,35 @@ fn a_measure_has_no_value_unit_or_rank() {
     };
     assert!((of("zygomatic_width_mm=100") - 100.0).abs() < 0.1 && (of("zygomatic_width_mm=120") - 120.0).abs() < 0.1);
     let table = done(&["measure", "--breed", "borzoi"]).stdout;
-    assert!(table.starts_with("Borzoi: dolichocephalic") && table.lines().count() == list.len() + 1, "{table}");
+    let measured = table.lines().filter(|l| l.contains("  bone: ") || l.contains("  skin: ")).count();
+    assert!(table.starts_with("Borzoi: dolichocephalic") && measured == list.len(), "{table}");
     refused(&["measure"], 2, &["--breed"]);
+}
+
+#[test]
+fn a_reference_is_told_without_its_status_source_or_deviation() {
+    let found: Value = serde_json::from_str(&done(&["measure", "--breed", "wolf", "--json"]).stdout).unwrap();
+    let list = found["measurements"].as_array().unwrap();
+    let of = |id: &str| list.iter().find(|m| m["id"] == id).unwrap();
+    let width = of("zygomatic_width");
+    let reference = &width["references"][0];
+    assert_eq!((&reference["status"], &reference["value"]), (&Value::from("measured"), &Value::from(142.5)));
+    assert!(reference["source"].as_str().unwrap().contains("two skulls"));
+    let off = width["value"].as_f64().unwrap() - 142.5;
+    assert!((reference["deviation"].as_f64().unwrap() - off).abs() < 2e-3, "{width}");
+    assert!((reference["deviation_percent"].as_f64().unwrap() - off / 1.425).abs() < 2e-3, "{width}");
+    assert!(of("orbital_angle")["references"].as_array().unwrap().is_empty());
+    assert_eq!(found["references"][0]["measure"], "body_mass");
+    let table = done(&["measure", "--breed", "wolf"]).stdout;
+    for word in ["off by ", "; measured: two skulls", "; computed: condylobasal", "; estimated: ", "body mass: 40 kg"] {
+        assert!(table.contains(word), "{word}: {table}");
+    }
+    let mix = ["measure", "--breed", "wolf", "--blend", "pug=0.5"];
+    assert!(!done(&mix).stdout.contains("off by"), "a mix is held against nothing");
+    let breeds: Value = serde_json::from_str(&done(&["list", "breeds", "--json"]).stdout).unwrap();
+    let pug = breeds.as_array().unwrap().iter().find(|b| b["id"] == "pug").unwrap();
+    assert_eq!((&pug["fci_group"], &pug["reference_class"]), (&Value::from(9), &Value::from("brachycephalic")));
+    assert!(pug["references"].as_array().unwrap().len() > 5);
 }
 
 #[test]
@@ -510,6 +539,53 @@ fn sheet_draws_the_breeds_and_views_asked_for() {
     assert_eq!(facts["views"].as_array().unwrap().len(), 2);
     assert_eq!(png_size(&std::fs::read(&path).unwrap()), (200, 150));
     refused(&["sheet", "--breeds", "pug,pgu", "-o", text(&path)], 2, &["unknown breed 'pgu'", "did you mean pug?"]);
+}
+
+#[test]
+fn an_atlas_has_not_a_strip_for_each_measure_of_its_groups() {
+    let folder = folder();
+    let path = folder.path().join("atlas.png");
+    let small = ["atlas", "--size", "24x30", "--group", "neck", "--json", "-o", text(&path)];
+    let facts: Value = serde_json::from_str(&done(&small).stdout).unwrap();
+    let neck: Vec<Value> = parameters().into_iter().filter(|p| p["group"] == "Neck").map(|p| p["id"].clone()).collect();
+    let drawn = facts["parameters"].as_array().unwrap();
+    assert_eq!(drawn.iter().map(|p| p["id"].clone()).collect::<Vec<_>>(), neck);
+    for parameter in drawn {
+        assert!(parameter["change"].as_f64().unwrap() > 2.0, "nothing is seen of {parameter}");
+    }
+    let (width, height) = png_size(&std::fs::read(&path).unwrap());
+    assert_eq!((&facts["files"][0]["width"], &facts["files"][0]["height"]), (&width.into(), &height.into()));
+    assert!(width >= 3 * 3 * 24 && height > 30);
+
+    let split = ["atlas", "--size", "16x16", "--split", "--group", "Neck", "--group", "nose", "--view", "side"];
+    let run = done(&[&split[..], &["--breed", "pug", "--columns", "1", "-o", text(&path)]].concat());
+    assert!(run.stderr.contains("atlas_nose.png") && run.stderr.contains("atlas_neck.png"), "{}", run.stderr);
+    assert_eq!(names_in(folder.path()), ["atlas.png", "atlas_neck.png", "atlas_nose.png"]);
+
+    refused(&["atlas", "--split", "-o", "-"], 2, &["--split writes several files"]);
+    refused(
+        &["atlas", "--group", "eers", "-o", "a.png"],
+        2,
+        &["unknown group 'eers'", "did you mean ears?", "lips-and-jaw"],
+    );
+    refused(&["atlas", "--columns", "0", "-o", "a.png"], 2, &["--columns"]);
+}
+
+#[test]
+fn lines_are_not_drawn_over_a_sheet() {
+    let folder = folder();
+    let draw = |name: &str, lines: &[&str]| {
+        let path = folder.path().join(name);
+        let sheet =
+            ["sheet", "--breeds", "pug", "--views", "side", "--level", "1", "--size", "80x90", "-o", text(&path)];
+        done(&[&sheet[..], lines].concat());
+        std::fs::read(&path).unwrap()
+    };
+    let [plain, control, refined] =
+        [draw("a.png", &[]), draw("b.png", &["--wireframe"]), draw("c.png", &["--wireframe=refined"])];
+    assert_eq!(png_size(&plain), png_size(&control));
+    assert!(plain != control && control != refined && plain != refined);
+    refused(&["sheet", "--wireframe=thin", "-o", "a.png"], 2, &["control", "refined"]);
 }
 
 #[test]

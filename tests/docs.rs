@@ -7,8 +7,8 @@ mod known_breeds;
 #[path = "support/settings.rs"]
 mod settings;
 
-use known_breeds::{CLASSES, Known, LIVE_AND_BONE, REFERENCES, Standing, live_ratio};
-use londra::anatomy::{Breed, ParamSpec, ParamTable, Unit};
+use known_breeds::{LIVE_AND_BONE, is_class, live_ratio};
+use londra::anatomy::{ParamSpec, ParamTable, Reference, Status, Unit};
 use settings::World;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -53,14 +53,18 @@ fn text(table: &ParamTable) -> String {
          <!-- Written from rigs/anatomy.ron by `UPDATE_DOCS=1 cargo test --test docs`. Edit that file, not this. -->\n\n\
          A head has {} measures.\n\
          Their ids are the keys of breed files and of `--set`, in the unit that the id ends in.\n\
-         A value that nobody has set may follow another one: value = default × (other / other's default) ^ exponent, within its range.\n\n",
+         A value that nobody has set may follow another one: value = default × (other / other's default) ^ exponent, within its range.\n\n\
+         The pictures show a Labrador with each measure at the low end, in the middle and at the high end of its range, all others as they are, from where it is seen best.\n\
+         `londra atlas --split -o docs/atlas.png` draws them; `londra atlas -o atlas.png` draws them in one picture.\n\n",
         table.specs.len()
     );
     let mut group = "";
     for spec in &table.specs {
         if spec.group != group {
             group = &spec.group;
-            let _ = writeln!(out, "## {group}\n");
+            let slug = group.to_lowercase().replace(' ', "-");
+            let _ =
+                writeln!(out, "## {group}\n\n![Each measure of this group, low, middle and high](atlas_{slug}.png)\n");
         }
         out.push_str(&entry(table, spec));
     }
@@ -91,21 +95,23 @@ fn manual_of_parameters_is_stale() {
 
 // ---- breeds ----
 
-fn standing(known: Known) -> &'static str {
-    match known.1 {
-        Standing::Measured => "m",
-        Standing::Computed => "c",
-        Standing::Estimated => "e",
+/// The letter of a reference's standing, as the page explains them.
+fn standing(reference: &Reference) -> &'static str {
+    match reference.status {
+        Status::Measured => "m",
+        Status::Computed => "c",
+        Status::Estimated => "e",
     }
 }
 
 fn breeds_text(world: &World) -> String {
     let mut out = format!(
         "# Breeds\n\n\
-         <!-- Written from rigs/breeds and tests/support/known_breeds.rs by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
+         <!-- Written from rigs/breeds by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
          {} heads are part of the program.\n\
-         Each file in `rigs/breeds` begins with the sources of its numbers and sets what matters for the breed; the rest follows.\n\n\
-         Beside each number stands what it is held against: m measured, c computed from a measured number, e estimated.\n\
+         Each file in `rigs/breeds` has the references that it is held against, each with its status and source, and sets what matters for the breed; the rest follows.\n\
+         `londra measure` prints them beside what it measures, and [heads.png](heads.png) shows all heads at one scale (`make heads`).\n\n\
+         Beside each number stands what it is held against: m measured, c computed from other numbers by a stated rule, e estimated.\n\
          Estimates are by laws of size and breed standards, not by measured breed means, of which hardly any could be had; they are uncertain by some 10 % in length, 5 points of index and 0.07 in the ratio.\n\n\
          - Skull length on bone: facial and cranial length, which meet at the nasion under 148 degrees. Held to 3 %.\n\
          - Zygomatic width on bone, as the file has it. Held to 3 %.\n\
@@ -117,31 +123,25 @@ fn breeds_text(world: &World) -> String {
          | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         world.breeds.len()
     );
-    for row in REFERENCES {
-        let breed = world.breed(row.id);
+    for breed in world.breeds.iter().filter(|b| !is_class(b)) {
         let value = |id: &str| breed.values[world.row(id)];
+        let known = |id: &str| breed.reference(id).unwrap_or_else(|| panic!("{}: no reference for {id}", breed.id));
         let (skull, width) = (1e3 * world.skull_length(&breed.values), 1e3 * value("zygomatic_width_mm"));
         let bone = value("facial_length_mm") / value("cranial_length_mm");
         let (index, ratio) = (100.0 * width / skull, live_ratio(bone));
-        let group = if row.group == 0 { String::new() } else { row.group.to_string() };
-        let part = |found: f32, known: Known| format!("{:+.1} %", 100.0 * (found / known.0 - 1.0));
-        let _ = writeln!(
-            out,
-            "| {} | {group} | {skull:.0} | {:.0} {} | {} | {width:.0} | {:.0} {} | {} | {index:.1} | {:.1} {} | {:+.1} | {bone:.2} | {ratio:.2} | {:.2} {} | {:+.2} |",
-            breed.label,
-            row.skull.0,
-            standing(row.skull),
-            part(skull, row.skull),
-            row.width.0,
-            standing(row.width),
-            part(width, row.width),
-            row.index.0,
-            standing(row.index),
-            index - row.index.0,
-            row.ratio.0,
-            standing(row.ratio),
-            ratio - row.ratio.0,
-        );
+        let group = breed.fci_group.map_or(String::new(), |group| group.to_string());
+        let _ = write!(out, "| {} | {group} |", breed.label);
+        for (found, id) in [(skull, "skull_length"), (width, "zygomatic_width")] {
+            let (reference, value) = (known(id), known(id).value as f32);
+            let off = 100.0 * (found / value - 1.0);
+            let _ = write!(out, " {found:.0} | {value:.0} {} | {off:+.1} % |", standing(reference));
+        }
+        let reference = known("skull_index");
+        let off = index - reference.value as f32;
+        let _ = write!(out, " {index:.1} | {:.1} {} | {off:+.1} | {bone:.2} |", reference.value, standing(reference));
+        let reference = known("craniofacial_ratio");
+        let off = ratio - reference.value as f32;
+        let _ = writeln!(out, " {ratio:.2} | {:.2} {} | {off:+.2} |", reference.value, standing(reference));
     }
     out.push_str(
         "\nTwo ratios are not met: the Pekingese's facial length stands at the end of its range, and a shorter muzzle folds the pug's stop.\n\n\
@@ -152,25 +152,24 @@ fn breeds_text(world: &World) -> String {
     }
     out.push_str(
         "\n## The three classes\n\n\
-         The class averages were recalled, not sourced, so indices alone are compared, within 5 %.\n\
+         The class averages of cranial and facial index were recalled, not sourced, and lengths differ with the size of the dogs, so indices alone are compared, within 5 %.\n\
          Skull index: width over skull length; cranial index: braincase width over cranial length; facial index: width over facial length; all times 100, on bone.\n\n\
          | Head | Skull index | Class | Cranial index | Class | Facial index | Class |\n| --- | --- | --- | --- | --- | --- | --- |\n",
     );
-    for (id, class) in CLASSES {
-        let breed: &Breed = world.breed(id);
+    for breed in world.breeds.iter().filter(|b| is_class(b)) {
         let value = |id: &str| breed.values[world.row(id)];
         let width = value("zygomatic_width_mm");
-        let _ = writeln!(
-            out,
-            "| {} | {:.1} | {} | {:.1} | {} | {:.1} | {} |",
-            breed.label,
-            100.0 * width / world.skull_length(&breed.values),
-            class[0],
-            100.0 * value("cranial_width_mm") / value("cranial_length_mm"),
-            class[1],
-            100.0 * width / value("facial_length_mm"),
-            class[2],
-        );
+        let found = [
+            ("skull_index", width / world.skull_length(&breed.values)),
+            ("cranial_index", value("cranial_width_mm") / value("cranial_length_mm")),
+            ("facial_index", width / value("facial_length_mm")),
+        ];
+        let _ = write!(out, "| {} |", breed.label);
+        for (id, found) in found {
+            let reference = breed.reference(id).unwrap_or_else(|| panic!("{}: no reference for {id}", breed.id));
+            let _ = write!(out, " {:.1} | {} {} |", 100.0 * found, reference.value, standing(reference));
+        }
+        out.push('\n');
     }
     out
 }
@@ -199,5 +198,23 @@ fn a_page_has_a_place_that_was_to_be_filled_in() {
     for page in pages.filter(|path| path.extension().is_some_and(|e| e == "md")) {
         let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
         assert_eq!(open_places(&text), [""; 0], "{}", page.display());
+    }
+}
+
+#[test]
+fn a_page_shows_a_picture_that_is_not_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for page in [
+        root.join("README.md"),
+        root.join("docs/head.md"),
+        root.join("docs/parameters.md"),
+        root.join("docs/breeds.md"),
+    ] {
+        let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+            let is_here = !link.is_empty() && !link.contains("://");
+            let target = page.parent().map(|folder| folder.join(link)).unwrap_or_default();
+            assert!(!is_here || target.exists(), "{} links to {link}", page.display());
+        }
     }
 }

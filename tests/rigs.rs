@@ -1,8 +1,15 @@
 //! The files in `rigs/`: each loads, is embedded, stays in range and survives saving; broken files are refused with a place.
 #![cfg(feature = "head")]
 
-use londra::anatomy::{Breed, LoadErrors, ParamTable, ProblemKind, Region, library, load_breed, save_breed};
+use londra::anatomy::{
+    Breed, LoadErrors, ParamTable, ProblemKind, QUANTITIES, Quantity, Region, Status, cross, library, load_breed,
+    save_breed,
+};
+use londra::math::rng::Rng;
+use londra::measure::Calliper;
+use londra::rig::Rig;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 fn table() -> ParamTable {
     ParamTable::embedded().unwrap_or_else(|e| panic!("{e}"))
@@ -133,7 +140,7 @@ fn all_mistakes_of_meaning_are_reported_each_at_its_place() {
 )"##;
     let expected = [
         "bad.ron:3:12: label must not be empty",
-        "bad.ron:4:5: unknown field lable (did you mean label?); allowed are version, label, anatomy, coat",
+        "bad.ron:4:5: unknown field lable (did you mean label?); allowed are version, label, fci_group, references, anatomy, coat",
         "bad.ron:6:9: unknown parameter skul_mm (did you mean skull_mm?)",
         "bad.ron:7:21: skull_mm is 410, allowed 50 to 200",
         "bad.ron:8:21: stop_deg must be a number, found a text",
@@ -408,4 +415,96 @@ fn parameters_are_found_by_slips_labels_and_synonyms() {
     assert!(table.nearest("tail_length_mm").is_empty());
     assert_eq!(table.index_of("fold"), Some(4));
     assert_eq!(table.index_of("Fold"), None);
+}
+
+// ---- references ----
+
+#[test]
+fn a_reference_loses_its_status_or_source_on_the_way_through_a_file() {
+    let text = file("").replace(
+        "anatomy:",
+        r#"fci_group: 9, references: [(measure: "skull_index", value: 54, status: measured, source: "a \"b\""),
+        (measure: "body_mass", value: 2.3, status: estimated, source: "typical")], anatomy:"#,
+    );
+    let table = small_table();
+    let breed = load_breed(&table, "test.ron", &text).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(breed.fci_group, Some(9));
+    let found: Vec<_> = breed
+        .references
+        .iter()
+        .map(|r| (r.quantity.id, r.quantity.unit, r.value, r.status, r.source.as_str()))
+        .collect();
+    let expected = [
+        ("skull_index", "", 54.0, Status::Measured, "a \"b\""),
+        ("body_mass", "kg", 2.3, Status::Estimated, "typical"),
+    ];
+    assert_eq!(found, expected);
+    let again = load_breed(&table, "test.ron", &save_breed(&table, &breed)).unwrap_or_else(|e| panic!("{e}"));
+    assert_same_bits(&breed, &again);
+}
+
+#[test]
+fn a_mistake_in_a_reference_is_not_told_at_its_place() {
+    let text = format!(
+        r#"Breed(version: 1, label: "Test", anatomy: {{}}, {COAT}, fci_group: 10.5,
+    references: [
+        (measure: "skull_lenght", value: 54, status: measured, source: "s"),
+        (measure: "skull_index", value: 540, status: measured, source: "s"),
+        (measure: "skull_index", value: 54, status: guessed, source: "s"),
+        (measure: "skull_index", value: 54, status: "measured", source: "s"),
+        (measure: "skull_index", value: inf, status: measured, source: " "),
+        (measure: "skull_index", value: 54, status: measured, source: "s"),
+        (measure: "skull_index", value: 55, status: measured, source: "s"),
+        (measure: "skull_index", valeu: 55, status: measured, source: "s"),
+    ])"#
+    );
+    let found = refused(&text).to_string();
+    let found: Vec<&str> = found.lines().map(|l| l.split("; allowed are skull_length").next().unwrap()).collect();
+    let expected = [
+        "bad.ron:1:152: fci_group is 10.5, allowed 1 to 10",
+        "bad.ron:3:19: unknown measure skull_lenght (did you mean skull_length?)",
+        "bad.ron:4:41: skull_index is 540, allowed 25 to 130",
+        "bad.ron:5:53: references[2].status must be measured, computed or estimated, without quotes, found guessed",
+        "bad.ron:6:53: references[3].status must be measured, computed or estimated, without quotes, found a text",
+        "bad.ron:7:41: references[4].value must be a finite number",
+        "bad.ron:7:72: references[4].source must not be empty",
+        "bad.ron:9:19: skull_index of this source is given twice, first in line 8",
+        "bad.ron:10:9: references[7].value is missing",
+        "bad.ron:10:34: unknown field references[7].valeu (did you mean value?); allowed are measure, value, status, source",
+    ];
+    assert_eq!(found, expected);
+    let whole = file("").replace("anatomy:", "fci_group: 2.5, references: 3, anatomy:");
+    let found = refused(&whole).to_string();
+    assert!(found.contains("fci_group must be a whole number, found a number"), "{found}");
+    assert!(found.contains("references must be a list [ … ], found a number"), "{found}");
+}
+
+#[test]
+fn a_blend_is_held_against_the_references_of_one_parent() {
+    let table = table();
+    let [pug, wolf] = ["pug", "wolf"].map(|id| library::breed(&table, id).unwrap_or_else(|e| panic!("{e}")));
+    assert!(!pug.references.is_empty() && pug.fci_group == Some(9));
+    assert!(pug.references.iter().all(|r| !r.source.is_empty()));
+    let blend = Breed::blend(&table, &[(&pug, 0.5), (&wolf, 0.5)]);
+    assert!(blend.references.is_empty() && blend.fci_group.is_none());
+    let puppy = cross(&table, &pug, &wolf, &mut Rng::new(1)).unwrap_or_else(|e| panic!("{e}"));
+    assert!(puppy.references.is_empty() && puppy.fci_group.is_none());
+    let alone = Breed::blend(&table, &[(&pug, 1.0), (&wolf, 0.0)]);
+    assert_eq!(alone.references, pug.references);
+}
+
+#[test]
+fn a_quantity_of_the_calliper_can_have_no_reference() {
+    let table = table();
+    let rig = Arc::new(Rig::embedded(&table).unwrap_or_else(|e| panic!("{e}")));
+    let mut calliper = Calliper::new(rig).unwrap_or_else(|e| panic!("{e}"));
+    let pug = library::breed(&table, "pug").unwrap_or_else(|e| panic!("{e}"));
+    let found = calliper.measure(&pug.values);
+    let told: Vec<(&str, &str)> = found.iter().map(|m| (m.id, m.dimension.unit())).collect();
+    let known: Vec<(&str, &str)> = QUANTITIES.iter().map(|q| (q.id, q.unit)).collect();
+    assert_eq!(known, [told, vec![("body_mass", "kg")]].concat());
+    for m in &found {
+        let range = Quantity::from_id(m.id).map(|q| q.min..=q.max);
+        assert!(range.is_some_and(|range| range.contains(&f64::from(m.value))), "{} is {}", m.id, m.value);
+    }
 }

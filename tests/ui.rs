@@ -7,6 +7,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use londra::anatomy::{Breed, ParamTable};
 use londra::app::{Command, Document, EditorState, files, panels};
 use londra::frame::{Layers, Pipeline, StageHashes};
+use londra::measure::Calliper;
 use londra::rig::Rig;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -336,4 +337,102 @@ fn a_layer_has_no_switch() {
     }
     harness.run();
     assert_eq!(harness.state().layers, Layers { skin: 0.25, eyes: false, bone: true, teeth: true });
+}
+
+// ---- measurements ----
+
+/// Opens the panel, and lets so many pictures pass that every breed is known.
+fn measured() -> Harness<'static, EditorState> {
+    let mut harness = harness();
+    assert!(harness.state().measures.found().is_empty(), "a closed panel measures");
+    harness.get_by_label("Measurements").click();
+    for _ in 0..harness.state().breeds.len() + 4 {
+        harness.step();
+    }
+    harness.run();
+    harness
+}
+
+#[test]
+fn the_measurements_are_not_those_of_the_head_that_is_shown() {
+    let mut harness = measured();
+    let is_true = |state: &EditorState| {
+        let rig = Arc::new(Rig::embedded(&state.table).unwrap());
+        let found = Calliper::new(rig).unwrap().measure(&state.breed().values);
+        assert_eq!(state.measures.found(), found);
+        found
+    };
+    let before = is_true(harness.state());
+    let state = harness.state();
+    assert_eq!(state.measures.n_surveyed(), state.breeds.len());
+    let at = before.iter().position(|m| m.id == "skull_length").unwrap();
+    let rank = state.measures.percentile(at).unwrap();
+    assert!((50.0..90.0).contains(&rank), "a Labrador's skull is longer than most: {rank}");
+    assert!(harness.query_by_label("mesaticephalic").is_some());
+
+    let (label, _, other) = measure(harness.state(), "facial_length_mm");
+    harness.get_by_role_and_label(Role::Slider, &label).set_value_accesskit(other);
+    harness.run();
+    assert_ne!(is_true(harness.state())[at].value, before[at].value);
+    assert_ne!(harness.state().measures.percentile(at), Some(rank));
+}
+
+#[test]
+fn the_cephalic_index_is_no_handle() {
+    let mut harness = measured();
+    let before = harness.state().breed().clone();
+    let width = harness.state().table.index_of("zygomatic_width_mm").unwrap();
+    let index = |h: &Harness<'_, EditorState>| h.state().skull_index().unwrap().0;
+    for wanted in [60.0, 48.0] {
+        harness.get_by_role_and_label(Role::SpinButton, "Cephalic index").set_value_accesskit(wanted);
+        harness.run();
+        assert!((f64::from(index(&harness)) - wanted).abs() < 0.05, "{} is not {wanted}", index(&harness));
+    }
+    let combo = |h: &Harness<'_, EditorState>| h.get_by_role_and_label(Role::ComboBox, "Breed").rect().width();
+    let wide = combo(&harness);
+    harness.run_steps(5);
+    assert_eq!(combo(&harness), wide, "a width of many digits pushes the panel wider");
+    harness.get_by_role_and_label(Role::SpinButton, "Cephalic index").set_value_accesskit(900.0);
+    harness.run();
+    let state = harness.state();
+    assert_eq!(state.breed().values[width], state.table.specs[width].max_si(), "stops at the end of the range");
+    let others = |b: &Breed| b.values.iter().enumerate().filter(|(i, _)| *i != width).map(|v| *v.1).collect::<Vec<_>>();
+    assert_eq!(others(state.breed()), others(&before), "only the width has changed");
+    for _ in 0..3 {
+        harness.get_by_label("Undo").click();
+        harness.run();
+    }
+    assert_eq!(*harness.state().breed(), before);
+}
+
+// ---- values that follow ----
+
+#[test]
+fn a_measure_that_follows_cannot_be_unlinked_or_linked_again() {
+    let mut harness = harness();
+    let (label, width, _) = measure(harness.state(), "cranial_width_mm");
+    let (leader, length, _) = measure(harness.state(), "cranial_length_mm");
+    let value = |h: &Harness<'_, EditorState>| h.state().breed().values[width];
+    let drag = |h: &mut Harness<'_, EditorState>, to: f64| {
+        h.get_by_role_and_label(Role::Slider, &leader).set_value_accesskit(to);
+        h.run();
+    };
+    let follows = format!("follows {}", leader.to_lowercase());
+    let is_told = |h: &Harness<'_, EditorState>| h.query_all_by_label(&follows).count();
+    assert!(harness.state().breed().set[width] && is_told(&harness) == 0);
+    harness.get_by_label(&format!("Link {label}")).click();
+    harness.run();
+    assert!(!harness.state().breed().set[width] && is_told(&harness) == 1);
+    let before = value(&harness);
+    drag(&mut harness, 130.0);
+    let wide = value(&harness);
+    assert!(wide > before, "a longer cranium is wider");
+
+    harness.get_by_label(&format!("Unlink {label}")).click();
+    harness.run();
+    assert!(harness.state().breed().set[width] && is_told(&harness) == 0);
+    assert_eq!(value(&harness), wide, "stays as it stood");
+    drag(&mut harness, 90.0);
+    assert_eq!(value(&harness), wide);
+    assert!(harness.state().is_overridden(length));
 }

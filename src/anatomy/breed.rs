@@ -1,6 +1,6 @@
 //! A breed: a value for every measure, and a look.
 
-use super::{Look, ParamTable};
+use super::{Look, ParamTable, Reference};
 
 /// Who the dog is. Complete and in range: made by [`super::load_breed`], [`Breed::defaults`] or [`Breed::blend`], changed by
 /// [`Breed::set_value`] and [`Breed::unset`].
@@ -10,6 +10,10 @@ pub struct Breed {
     pub id: String,
     /// Name on the screen.
     pub label: String,
+    /// Group of the Fédération Cynologique Internationale, 1 to 10; none for what is no breed of dog.
+    pub fci_group: Option<u8>,
+    /// What it is held against; of several numbers of one quantity the first. Blends and descendants have none.
+    pub references: Vec<Reference>,
     /// One per row of the table, SI, all resolved.
     pub values: Vec<f32>,
     /// One per row: was it set, or does it follow?
@@ -23,7 +27,8 @@ impl Breed {
     pub fn defaults(table: &ParamTable) -> Self {
         let values = table.specs.iter().map(super::ParamSpec::default_si).collect();
         let (id, label) = ("unnamed".to_owned(), "Unnamed".to_owned());
-        Self { id, label, values, set: vec![false; table.specs.len()], look: Look::default() }
+        let set = vec![false; table.specs.len()];
+        Self { id, label, fci_group: None, references: Vec::new(), values, set, look: Look::default() }
     }
 
     /// Sets row `index` to a value (SI), cut off at the ends of its range; what follows it moves along.
@@ -79,7 +84,13 @@ impl Breed {
         let looks: Vec<(&Look, f64)> = weighted.iter().map(|(b, w)| (&b.look, *w)).collect();
         let join =
             |of: fn(&Breed) -> &str, with: &str| weighted.iter().map(|(b, _)| of(b)).collect::<Vec<_>>().join(with);
-        Breed { id: join(|b| &b.id, "+"), label: join(|b| &b.label, " + "), values, set, look: Look::blend(&looks) }
+        let (id, label) = (join(|b| &b.id, "+"), join(|b| &b.label, " + "));
+        Breed { id, label, fci_group: None, references: Vec::new(), values, set, look: Look::blend(&looks) }
+    }
+
+    /// What a quantity is held against: the first reference with that id.
+    pub fn reference(&self, id: &str) -> Option<&Reference> {
+        self.references.iter().find(|reference| reference.quantity.id == id)
     }
 }
 

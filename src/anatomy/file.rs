@@ -6,7 +6,7 @@
 
 use super::locate::{Item, Node, Place};
 use super::read::{Fields, Problems};
-use super::{ProblemKind, colour};
+use super::{ProblemKind, Status, colour};
 use glam::Vec3;
 
 /// The newest version that is read, and the one that is written.
@@ -15,9 +15,23 @@ pub(super) const NEWEST: u32 = 1;
 /// What stands in a file, not yet compared with a table.
 pub(super) struct BreedFile {
     pub label: String,
+    pub fci_group: Option<u8>,
+    /// In the order of the file.
+    pub references: Vec<ReferenceFile>,
     /// In the order of the file.
     pub anatomy: Vec<Measure>,
     pub coat: CoatFile,
+}
+
+/// One of `references`.
+pub(super) struct ReferenceFile {
+    pub measure: String,
+    pub measure_at: Place,
+    /// NaN if it has been reported.
+    pub value: f64,
+    pub value_at: Place,
+    pub status: Status,
+    pub source: String,
 }
 
 /// `"id": value`.
@@ -48,9 +62,12 @@ pub(super) struct MarkFile {
     pub amount: f32,
 }
 
+/// The fields of a file, in the order in which they are written.
+const FIELDS: [&str; 6] = ["version", "label", "fci_group", "references", "anatomy", "coat"];
+
 /// Reads a file of any known version. `None` when it is none, which has been reported.
 pub(super) fn read(root: &Node, problems: &mut Problems) -> Option<BreedFile> {
-    let fields = problems.fields(root, "", "Breed", &["version", "label", "anatomy", "coat"])?;
+    let fields = problems.fields(root, "", "Breed", &FIELDS)?;
     // A second version makes this a `match` whose older arms end in a step to the newer form.
     problems.version(&fields, NEWEST)?;
     Some(read_version_1(&fields, problems))
@@ -60,7 +77,53 @@ fn read_version_1(fields: &Fields<'_>, problems: &mut Problems) -> BreedFile {
     let label = fields.require("label", problems).and_then(|n| problems.full_text(n, "label"));
     let anatomy = fields.require("anatomy", problems).map(|n| read_measures(n, problems));
     let coat = fields.require("coat", problems).and_then(|n| read_coat(n, problems));
-    BreedFile { label: label.unwrap_or_default(), anatomy: anatomy.unwrap_or_default(), coat: coat.unwrap_or_default() }
+    let fci_group = fields.get("fci_group").and_then(|n| problems.whole_number_in(n, "fci_group", 1, 10));
+    let references = fields.get("references").map_or(Vec::new(), |node| {
+        let nodes = problems.list(node, "references").iter().enumerate();
+        nodes.filter_map(|(i, n)| read_reference(n, &format!("references[{i}]"), problems)).collect()
+    });
+    BreedFile {
+        label: label.unwrap_or_default(),
+        fci_group,
+        references,
+        anatomy: anatomy.unwrap_or_default(),
+        coat: coat.unwrap_or_default(),
+    }
+}
+
+/// `None` when something is missing or of the wrong type, which has been reported.
+fn read_reference(node: &Node, path: &str, problems: &mut Problems) -> Option<ReferenceFile> {
+    let fields = problems.fields(node, path, "Reference", &["measure", "value", "status", "source"])?;
+    let measure_node = fields.require("measure", problems);
+    let measure = measure_node.and_then(|n| problems.text(n, &fields.path_of("measure")));
+    let value_node = fields.require("value", problems);
+    let value = value_node.and_then(|n| problems.number(n, &fields.path_of("value")));
+    let status = fields.require("status", problems).and_then(|n| read_status(n, &fields.path_of("status"), problems));
+    let source = fields.require("source", problems).and_then(|n| problems.full_text(n, &fields.path_of("source")));
+    Some(ReferenceFile {
+        measure: measure?,
+        measure_at: measure_node?.place,
+        value: value.unwrap_or(f64::NAN),
+        value_at: value_node?.place,
+        status: status?,
+        source: source?,
+    })
+}
+
+/// A bare word, as RON writes variants.
+fn read_status(node: &Node, field: &str, problems: &mut Problems) -> Option<Status> {
+    let status = match &node.item {
+        Item::Word(word) => Status::from_name(word),
+        _ => None,
+    };
+    if status.is_none() {
+        let found = match &node.item {
+            Item::Word(word) => word.clone(),
+            other => other.form().to_owned(),
+        };
+        problems.push(node.place, ProblemKind::UnknownStatus { field: field.to_owned(), found });
+    }
+    status
 }
 
 fn read_measures(node: &Node, problems: &mut Problems) -> Vec<Measure> {

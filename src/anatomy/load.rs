@@ -2,13 +2,15 @@
 
 use super::file::{self, BreedFile};
 use super::read::Problems;
-use super::{Breed, LoadErrors, Look, Mark, ParamTable, ProblemKind, Region, locate, nearest};
+use super::{
+    Breed, LoadErrors, Look, Mark, ParamTable, ProblemKind, QUANTITIES, Quantity, Reference, Region, locate, nearest,
+};
 
 /// Reads a breed. `name` is the file's name or path: it stands in messages, and its stem becomes the breed's id.
 ///
 /// # Errors
 /// The first syntax error, or every mistake of meaning: unknown or double or missing fields, wrong types, values out of range
-/// or not finite, unknown parameters, regions, colours, versions. Each has its place.
+/// or not finite, unknown parameters, measures, regions, colours, versions. Each has its place.
 pub fn load_breed(table: &ParamTable, name: &str, text: &str) -> Result<Breed, LoadErrors> {
     let root = locate::parse(name, text)?;
     let mut problems = Problems::default();
@@ -20,6 +22,8 @@ fn resolve(table: &ParamTable, name: &str, file: BreedFile, problems: &mut Probl
     let mut breed = Breed::defaults(table);
     breed.id = stem(name).to_owned();
     breed.label = file.label;
+    breed.fci_group = file.fci_group;
+    breed.references = resolve_references(file.references, problems);
     for measure in &file.anatomy {
         let Some(index) = table.index_of(&measure.id) else {
             let near = table.nearest(&measure.id).into_iter().map(str::to_owned).collect();
@@ -39,6 +43,34 @@ fn resolve(table: &ParamTable, name: &str, file: BreedFile, problems: &mut Probl
     table.resolve(&mut breed.values, &breed.set);
     breed.look = resolve_look(file.coat, problems);
     breed
+}
+
+fn resolve_references(list: Vec<file::ReferenceFile>, problems: &mut Problems) -> Vec<Reference> {
+    let mut references: Vec<Reference> = Vec::new();
+    let mut lines = Vec::new();
+    for file::ReferenceFile { measure, measure_at, value, value_at, status, source } in list {
+        let Some(quantity) = Quantity::from_id(&measure) else {
+            let allowed: Vec<&'static str> = QUANTITIES.iter().map(|q| q.id).collect();
+            let near = nearest(&measure, allowed.iter().map(|&id| (id, id))).into_iter().map(str::to_owned).collect();
+            problems.push(measure_at, ProblemKind::UnknownMeasure { id: measure, nearest: near, allowed });
+            continue;
+        };
+        if value < quantity.min || value > quantity.max {
+            let (min, max) = (quantity.min, quantity.max);
+            problems.push(value_at, ProblemKind::OutOfRange { field: measure, value, min, max });
+            continue;
+        }
+        let reference = Reference { quantity, value, status, source };
+        let is_same = |r: &Reference| (r.quantity, r.status, &r.source) == (quantity, status, &reference.source);
+        if let Some(first) = references.iter().position(is_same) {
+            let kind = ProblemKind::Duplicate { field: format!("{measure} of this source"), first_line: lines[first] };
+            problems.push(measure_at, kind);
+            continue;
+        }
+        references.push(reference);
+        lines.push(measure_at.line);
+    }
+    references
 }
 
 fn resolve_look(coat: file::CoatFile, problems: &mut Problems) -> Look {

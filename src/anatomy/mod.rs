@@ -5,6 +5,7 @@
 //! - [`Breed`] has a value for each row of the table and a [`Look`]; [`Breed::blend`] mixes breeds by mixing values.
 //! - [`load_breed`] and [`save_breed`] turn text into a breed and back, exactly. No function here touches the file system.
 //! - [`Space`] knows how breeds differ and draws random dogs; [`cross`] has puppies of two; [`Locks`] say what is kept.
+//! - [`Reference`] is what a breed is held against: a number from outside the program, with its standing and source.
 //! - [`library`] holds the table and the breeds that are part of the program.
 
 mod breed;
@@ -20,6 +21,7 @@ mod nearest;
 mod param;
 mod problem;
 mod read;
+mod reference;
 mod region;
 mod save;
 mod space;
@@ -34,6 +36,7 @@ pub use look::{Look, Mark};
 pub use nearest::nearest;
 pub use param::{Follow, ParamSpec, Unit};
 pub use problem::{LoadErrors, Problem, ProblemKind};
+pub use reference::{QUANTITIES, Quantity, Reference, Status};
 pub use region::Region;
 pub use save::save_breed;
 pub use space::{Space, SpaceError};

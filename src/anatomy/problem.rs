@@ -103,6 +103,24 @@ pub enum ProblemKind {
         /// Known ids with similar names.
         nearest: Vec<String>,
     },
+    /// No such measure among those that references are of.
+    #[error("unknown measure {id}{}; allowed are {}", did_you_mean(nearest), allowed.join(", "))]
+    UnknownMeasure {
+        /// The id in the file.
+        id: String,
+        /// Known ids with similar names.
+        nearest: Vec<String>,
+        /// All known ids.
+        allowed: Vec<&'static str>,
+    },
+    /// A reference that is neither measured nor computed nor estimated.
+    #[error("{field} must be measured, computed or estimated, without quotes, found {found}")]
+    UnknownStatus {
+        /// Path of the field.
+        field: String,
+        /// What stands there.
+        found: String,
+    },
     /// No such region.
     #[error("unknown region {name}{}", did_you_mean(nearest))]
     UnknownRegion {

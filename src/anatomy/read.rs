@@ -159,6 +159,16 @@ impl Problems {
         Some(value)
     }
 
+    /// A whole number from `min` to `max`.
+    pub fn whole_number_in(&mut self, node: &Node, field: &str, min: u8, max: u8) -> Option<u8> {
+        let value = self.number_in(node, field, f64::from(min), f64::from(max))?;
+        if value.fract() != 0.0 {
+            self.wrong_type(node, field, "a whole number");
+            return None;
+        }
+        Some(value as u8)
+    }
+
     /// The field `version`, from 1 to `newest`. Any other makes the rest unreadable.
     pub fn version(&mut self, fields: &Fields<'_>, newest: u32) -> Option<u32> {
         let node = fields.require("version", self)?;

@@ -1,11 +1,12 @@
 //! [`Breed`] to text.
 
 use super::file::NEWEST;
-use super::{Breed, ParamTable, colour, param};
+use super::{Breed, ParamTable, Reference, colour, param};
 use glam::Vec3;
 use std::fmt::Write;
 
-/// Writes a breed as a file: the values that are set, in the order of the table, and the look.
+/// Writes a breed as a file: what it is held against, the values that are set, in the order of
+/// the table, and the look.
 ///
 /// [`super::load_breed`] turns the text into the same breed again, to the bit; only the id is the file's name and not in it.
 pub fn save_breed(table: &ParamTable, breed: &Breed) -> String {
@@ -16,7 +17,19 @@ pub fn save_breed(table: &ParamTable, breed: &Breed) -> String {
 }
 
 fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt::Result {
-    writeln!(out, "Breed(\n    version: {NEWEST},\n    label: {},\n    anatomy: {{", quoted(&breed.label))?;
+    writeln!(out, "Breed(\n    version: {NEWEST},\n    label: {},", quoted(&breed.label))?;
+    if let Some(group) = breed.fci_group {
+        writeln!(out, "    fci_group: {group},")?;
+    }
+    if !breed.references.is_empty() {
+        writeln!(out, "    references: [")?;
+        for Reference { quantity, value, status, source } in &breed.references {
+            let (measure, source) = (quoted(quantity.id), quoted(source));
+            writeln!(out, "        (measure: {measure}, value: {value:?}, status: {status}, source: {source}),")?;
+        }
+        writeln!(out, "    ],")?;
+    }
+    writeln!(out, "    anatomy: {{")?;
     for (i, spec) in table.specs.iter().enumerate().filter(|(i, _)| breed.set[*i]) {
         writeln!(out, "        \"{}\": {:?},", spec.id, spec.from_si(breed.values[i]))?;
     }

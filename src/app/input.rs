@@ -17,6 +17,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("L + drag, [ and ]", "turn the lights"),
     ("W", "wireframe"),
     ("G", "control mesh"),
+    ("M", "measurements of the head"),
     ("+, −", "finer, coarser"),
     ("Ctrl+Z", "undo"),
     ("Ctrl+Shift+Z, Ctrl+Y", "redo"),
@@ -83,6 +84,9 @@ pub fn keys(state: &mut EditorState, ctx: &egui::Context) {
     }
     if pressed(Key::G) {
         toggle(&mut state.shading, Shading::Control);
+    }
+    if pressed(Key::M) {
+        state.measures.is_open = !state.measures.is_open;
     }
     if pressed(Key::Plus) || pressed(Key::Equals) {
         state.set_level(state.level() + 1);

@@ -35,6 +35,8 @@ pub struct Measured {
     pub own_slow_ms: f32,
     /// Handing it over: the library checks and translates for the driver. What the driver does then is not counted.
     pub submit_ms: f32,
+    /// What the panel of measurements adds to a picture while it is open: one head measured.
+    pub measure_ms: f32,
 }
 
 /// Runs so many pictures of the window at level 4, each of another head, and waits for the driver after each.
@@ -87,6 +89,17 @@ pub fn measure(launch: &Launch, n_frames: usize) -> Result<Measured, AppError> {
             times.iter_mut().zip(all).for_each(|(list, ms)| list.push(ms));
         }
     }
+    let mut measure_ms = Vec::new();
+    for n in 0..WARM_UP + n_frames {
+        if let Some(row) = row {
+            turn.state.set_value(row, turn.state.table.specs[row].min_si() + 1e-4 * (n + 1) as f32);
+        }
+        let start = Instant::now();
+        turn.state.measure();
+        measure_ms.push(milliseconds(start));
+    }
+    measure_ms.drain(..WARM_UP);
+    measure_ms.sort_by(f32::total_cmp);
     times.iter_mut().for_each(|list| list.sort_by(f32::total_cmp));
     let at = |list: &[f32], part: f32| {
         let last = list.len().saturating_sub(1);
@@ -103,6 +116,7 @@ pub fn measure(launch: &Launch, n_frames: usize) -> Result<Measured, AppError> {
         own_ms,
         own_slow_ms: at(&times[3], 0.95),
         submit_ms,
+        measure_ms: at(&measure_ms, 0.5),
     })
 }
 

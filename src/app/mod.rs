@@ -12,6 +12,7 @@ mod history;
 mod host;
 pub mod input;
 mod measure;
+mod measures;
 pub mod panels;
 mod run;
 mod scene;
@@ -21,5 +22,6 @@ mod watch;
 
 pub use chance::Chance;
 pub use measure::{Measured, measure};
+pub use measures::Measures;
 pub use run::{AppError, Launch, run};
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};

@@ -2,6 +2,7 @@
 
 use super::chance::Chance;
 use super::history::History;
+use super::measures::Measures;
 use crate::anatomy::{Breed, ParamTable};
 use crate::frame::Layers;
 use crate::render::{Background, Camera, Lens, Shading, View};
@@ -155,6 +156,8 @@ pub struct EditorState {
     pub background: Background,
     /// What the next random dog depends on.
     pub chance: Chance,
+    /// What a vet would measure on the head that is shown.
+    pub measures: Measures,
     /// What is looked for among the measures.
     pub search: String,
     /// Show only measures that were changed.
@@ -198,6 +201,7 @@ impl EditorState {
             on_card: false,
             background: Background::default(),
             chance: Chance::default(),
+            measures: Measures::default(),
             search: String::new(),
             only_changed: false,
             shows_keys: false,
@@ -276,6 +280,13 @@ impl EditorState {
                 d.overrides.insert(index, Override::Follow);
             }
         });
+    }
+
+    /// Sets a measure that follows another one to the value that it has: from now on it stays.
+    pub fn unlink(&mut self, index: usize) {
+        if let Some(&si) = self.shown.values.get(index) {
+            self.set_value(index, si);
+        }
     }
 
     /// Takes back what was done to a measure.
@@ -408,6 +419,7 @@ impl EditorState {
         let before = (self.breeds.clone(), self.document.clone());
         if let Some(known) = self.breeds.iter_mut().find(|b| b.id == breed.id) {
             *known = breed.clone();
+            self.measures.forget_breeds();
         }
         let is_open = match &self.document.path {
             Some(open) => open == path,
@@ -428,6 +440,7 @@ impl EditorState {
         self.table = table;
         self.breeds = breeds;
         self.chance.forget_table();
+        self.measures.forget_table();
         // Steps of the old table count other rows.
         self.history = History::default();
         self.document = document;

@@ -43,6 +43,8 @@ pub(super) enum Command {
     Render(Render),
     /// Draw a contact sheet of breeds as PNG
     Sheet(Sheet),
+    /// Draw what every measure does as PNG
+    Atlas(Atlas),
     /// Have puppies of two dogs, or random dogs, as breed files
     Breed(Breed),
     /// Write a head as binary glTF
@@ -136,6 +138,18 @@ pub(super) struct Scene {
     /// What is there, with commas between: skin, eyes, bone, teeth; skin=0.3 is seen through
     #[arg(long, value_name = "A,B,C", default_value = "skin,eyes", value_parser = Layers::parse)]
     pub layers: Layers,
+    /// Draw lines over the surfaces: the edges of the control mesh, or with =refined every edge
+    #[arg(long, value_name = "control|refined", num_args = 0..=1, require_equals = true, default_missing_value = "control")]
+    pub wireframe: Option<Wires>,
+}
+
+/// Which lines.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Wires {
+    /// Edges of the control mesh
+    Control,
+    /// Every edge of what is drawn
+    Refined,
 }
 
 /// Where the result goes.
@@ -204,6 +218,9 @@ pub(super) struct Sheet {
     /// Width and height of the whole sheet, pixels; without it, cells of 320 by 320
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<Size>,
+    /// Heads beside each other
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub columns: u32,
     /// Let every head fill its cell instead of sharing one scale
     #[arg(long)]
     pub fit: bool,
@@ -211,6 +228,39 @@ pub(super) struct Sheet {
     pub scene: Scene,
     #[command(flatten)]
     pub detail: Detail,
+    #[command(flatten)]
+    pub target: Target,
+}
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Each measure stands there at the low end, in the middle and at the high end of its range, all others as the \
+    breed has them, under one camera.\n\
+    'londra atlas --json' tells how much the two ends differ: the root mean square over the colours, of 255.\n\n\
+    Examples:\n  \
+    londra atlas -o docs/atlas.png\n  \
+    londra atlas --breed pug --group ears --group nose --size 160x160 -o pug.png\n  \
+    londra atlas --split -o docs/atlas.png"
+)]
+pub(super) struct Atlas {
+    /// A breed by name, or a file that ends in .ron
+    #[arg(long, value_name = "NAME|FILE.ron", default_value = "labrador")]
+    pub breed: String,
+    /// Only this group of measures, such as ears or lips-and-jaw; may be repeated
+    #[arg(long, value_name = "GROUP")]
+    pub group: Vec<String>,
+    /// Width and height of one head, pixels
+    #[arg(long, value_name = "WxH", default_value = "68x68", value_parser = values::size)]
+    pub size: Size,
+    /// Measures beside each other
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub columns: u32,
+    /// Show every measure in this view, as for render; without it, in the one that shows it best
+    #[arg(long, value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION", allow_hyphen_values = true)]
+    pub view: Option<Direction>,
+    /// Write a file for each group, such as atlas_ears.png beside atlas.png
+    #[arg(long)]
+    pub split: bool,
     #[command(flatten)]
     pub target: Target,
 }

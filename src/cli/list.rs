@@ -3,7 +3,8 @@
 use super::args::{List, Listed};
 use super::rigs::Rigs;
 use super::{Failure, output};
-use crate::anatomy::ParamSpec;
+use crate::anatomy::{Breed, ParamSpec};
+use crate::measure::SkullClass;
 use serde_json::{Value, json};
 
 /// Prints names for people, or everything as JSON.
@@ -13,7 +14,7 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
         Listed::Breeds => {
             let breeds = rigs.ids().iter().map(|id| rigs.breed(id)).collect::<Result<Vec<_>, _>>()?;
             if args.report.json {
-                return output::json(&breeds.iter().map(|b| json!({ "id": b.id, "label": b.label })).collect());
+                return output::json(&breeds.iter().map(breed_as_json).collect());
             }
             let width = breeds.iter().map(|b| b.id.chars().count()).max().unwrap_or(0);
             let lines = breeds.iter().map(|b| format!("{:width$}  {}", b.id, b.label));
@@ -32,6 +33,16 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
             output::result(&lines.collect::<Vec<_>>().join("\n"))
         }
     }
+}
+
+/// Nothing here is measured on a head: that would take a second for all; `londra measure` does it for one.
+fn breed_as_json(breed: &Breed) -> Value {
+    let index = breed.reference("skull_index").map(|r| SkullClass::of(r.value as f32).name());
+    let references: Vec<Value> = breed.references.iter().map(|r| super::measure::as_json(r, None)).collect();
+    json!({
+        "id": breed.id, "label": breed.label, "fci_group": breed.fci_group, "reference_class": index,
+        "references": references,
+    })
 }
 
 fn as_json(spec: &ParamSpec) -> Value {

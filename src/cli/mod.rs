@@ -3,6 +3,7 @@
 //! Results go to stdout, messages to stderr. Exit codes: 0 done, 1 failed, 2 wrong use, 3 no display or graphics adapter.
 
 mod args;
+mod atlas;
 mod bake;
 mod bench;
 mod breed;
@@ -56,6 +57,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::View(args) => view::run(&args),
         Command::Render(args) => picture::render(&args),
         Command::Sheet(args) => picture::sheet(&args),
+        Command::Atlas(args) => atlas::run(&args),
         Command::Breed(args) => breed::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Hash(args) => hash::run(&args),

@@ -36,6 +36,14 @@ pub(super) fn check_target(target: &Path, json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes a file, or to stdout where the target is `-`.
+pub(super) fn bytes(target: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if is_stdout(target) {
+        return to_stdout(bytes);
+    }
+    Ok(write_atomic(target, bytes)?)
+}
+
 /// Writes a file, or to stdout where the target is `-`, and tells what was written: as JSON or as a message.
 pub(super) fn file(target: &Path, bytes: &[u8], json_wanted: bool, facts: Value) -> Result<(), Failure> {
     if is_stdout(target) {

@@ -1,11 +1,11 @@
 //! `londra render` and `londra sheet`.
 
-use super::args::{Render, Scene, Sheet as SheetArgs};
+use super::args::{Render, Scene, Sheet as SheetArgs, Wires};
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::Frame;
-use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Sheet, View};
+use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
@@ -24,8 +24,12 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let frame = pipeline.update(&breed);
 
     let camera = camera(&frame, args.view, args.scene.pitch, args.scene.lens, args.size);
-    let drawing =
-        Drawing { background: background(&args.scene), skin_opacity: args.scene.layers.skin, ..Drawing::new(camera) };
+    let drawing = Drawing {
+        background: background(&args.scene),
+        skin_opacity: args.scene.layers.skin,
+        shading: shading(&args.scene),
+        ..Drawing::new(camera)
+    };
     let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
@@ -58,12 +62,17 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {
-        Some(size) => Sheet::cell_within(size, breeds.len(), args.views.len()),
+        Some(size) => {
+            let across = args.columns as usize;
+            Sheet::cell_within(size, breeds.len().div_ceil(across), args.views.len() * across)
+        }
         None => [CELL, CELL],
     };
     let Scene { pitch, lens, .. } = args.scene;
     let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
     sheet.skin_opacity = args.scene.layers.skin;
+    sheet.shading = shading(&args.scene);
+    sheet.heads_across = args.columns;
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
     }
@@ -106,6 +115,14 @@ fn on_paper(sheet: &Picture, [width, height]: [u32; 2]) -> Picture {
 
 fn background(scene: &Scene) -> Background {
     scene.background.unwrap_or_default()
+}
+
+fn shading(scene: &Scene) -> Shading {
+    match scene.wireframe {
+        None => Shading::Shaded,
+        Some(Wires::Control) => Shading::Control,
+        Some(Wires::Refined) => Shading::Wireframe,
+    }
 }
 
 pub(super) fn offscreen() -> Result<Offscreen, Failure> {

@@ -5,7 +5,7 @@
 
 use crate::anatomy::Breed;
 use crate::math::ops;
-use crate::rig::bone::{Bones, BonesOfHead};
+use crate::rig::bone::Bones;
 use crate::rig::{ControlError, Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
 use glam::Vec3;
@@ -36,6 +36,16 @@ pub enum Dimension {
     Ratio,
 }
 
+impl Tissue {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tissue::Bone => "bone",
+            Tissue::Skin => "skin",
+        }
+    }
+}
+
 impl Dimension {
     /// The unit behind a number; nothing behind a pure one.
     pub fn unit(self) -> &'static str {
@@ -44,6 +54,11 @@ impl Dimension {
             Dimension::Degree => "deg",
             Dimension::Percent | Dimension::Ratio => "",
         }
+    }
+
+    /// How many digits behind the point mean something.
+    pub fn decimals(self) -> usize {
+        if self == Dimension::Ratio { 2 } else { 1 }
     }
 }
 
@@ -113,7 +128,6 @@ pub struct Calliper {
     plan: Plan,
     evaluator: Evaluator,
     deformed: Deformed,
-    of_head: BonesOfHead,
 }
 
 impl Calliper {
@@ -129,7 +143,6 @@ impl Calliper {
             plan,
             rig,
             deformed: Deformed::default(),
-            of_head: BonesOfHead::default(),
         })
     }
 
@@ -137,14 +150,14 @@ impl Calliper {
     pub fn measure(&mut self, values: &[f32]) -> Vec<Measurement> {
         let rig = &self.rig;
         rig.deform(values, deform::ROUNDS, &mut self.deformed);
-        self.bones.shape(&rig.measures(values), &rig.proportions(values), &mut self.of_head);
+        let bone = self.bones.landmarks_alone(&rig.measures(values), &rig.proportions(values));
         let skin = self.evaluator.evaluate(&self.plan, &self.deformed.control).positions;
         let landmarks = &rig.half().landmarks;
         let on_skin = |id: &str| {
             let vertex = landmarks.iter().find(|l| l.0 == id).map(|l| usize::from(l.2));
             vertex.map_or(Vec3::NAN, |v| skin[v]) * 1000.0
         };
-        let on_bone = |id: &str| self.bones.landmark(id, &self.of_head).unwrap_or(Vec3::NAN) * 1000.0;
+        let on_bone = |id: &str| bone.iter().find(|(known, _)| *known == id).map_or(Vec3::NAN, |(_, p)| *p) * 1000.0;
         measurements(&on_bone, &on_skin, self.deformed.eyes[0].radius * 2000.0)
     }
 

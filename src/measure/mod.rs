@@ -2,12 +2,14 @@
 //! them.
 
 mod calliper;
+mod deviation;
 mod folds;
 mod landmarks;
 mod percentile;
 mod sight;
 
 pub use calliper::{Calliper, Dimension, MeasureError, Measurement, SkullClass, Tissue, value};
+pub use deviation::Deviation;
 pub use folds::{Folds, FoldsError, MAY_FOLD};
 pub use landmarks::{Landmark, Side, bone_landmarks, skin_landmarks};
 pub use percentile::percentile;

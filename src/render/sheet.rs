@@ -1,4 +1,4 @@
-//! A contact sheet: one row a head with its name, one column a view.
+//! A contact sheet: one row a head with its name, one column a view; or several heads beside each other.
 //!
 //! Call [`Sheet::measure`] for every head, then [`Sheet::add_row`] for every head, then [`Sheet::finish`]. The first
 //! round finds the scale that all cells share, so that a Chihuahua is small beside a borzoi.
@@ -6,7 +6,7 @@
 use super::camera::{Camera, Lens, View};
 use super::ground_pass::Background;
 use super::offscreen::{DrawError, Offscreen};
-use super::painter::Drawing;
+use super::painter::{Drawing, Shading};
 use super::picture::Picture;
 use super::text;
 use crate::frame::Frame;
@@ -27,6 +27,10 @@ pub struct Sheet {
     background: Background,
     /// Of the skin, 0 to 1: 1 unless it is set.
     pub skin_opacity: f32,
+    /// Surfaces, or lines over them: surfaces unless it is set.
+    pub shading: Shading,
+    /// Heads beside each other, at least 1: 1 unless it is set.
+    pub heads_across: u32,
     distance: f32,
     rows: Vec<(String, Vec<Picture>)>,
 }
@@ -42,7 +46,19 @@ impl Sheet {
         pitch: Option<f32>,
         background: Background,
     ) -> Self {
-        Self { views, cell, fit, lens, pitch, background, skin_opacity: 1.0, distance: 0.0, rows: Vec::new() }
+        Self {
+            views,
+            cell,
+            fit,
+            lens,
+            pitch,
+            background,
+            skin_opacity: 1.0,
+            shading: Shading::Shaded,
+            heads_across: 1,
+            distance: 0.0,
+            rows: Vec::new(),
+        }
     }
 
     /// The largest cell with which a sheet of so many rows and columns stays within `size` (width, height, pixels).
@@ -74,8 +90,8 @@ impl Sheet {
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let drawing =
-                Drawing { background: self.background, skin_opacity: self.skin_opacity, ..Drawing::new(camera) };
+            let (background, skin_opacity, shading) = (self.background, self.skin_opacity, self.shading);
+            let drawing = Drawing { background, skin_opacity, shading, ..Drawing::new(camera) };
             cells.push(offscreen.draw(frame, &drawing, self.cell)?);
         }
         self.rows.push((name.to_owned(), cells));
@@ -90,21 +106,23 @@ impl Sheet {
         let row = cell_height + caption;
         let [r, g, b] = PAPER;
         let alpha = if self.background == Background::None { 0 } else { 255 };
-        let width = cell_width * self.views.len() as u32;
-        let mut sheet = Picture::filled(width, heading + row * self.rows.len() as u32, [r, g, b, alpha]);
-        for (column, view) in (0u32..).zip(&self.views) {
+        let (across, block) = (self.heads_across.max(1), cell_width * self.views.len() as u32);
+        let n_rows = (self.rows.len() as u32).div_ceil(across);
+        let mut sheet = Picture::filled(block * across, heading + row * n_rows, [r, g, b, alpha]);
+        let views = (0..across).flat_map(|_| &self.views);
+        for (column, view) in (0u32..).zip(views) {
             let size = heading as f32 * 0.7;
             let name = view.name();
             let x = (column * cell_width) as f32 + (cell_width as f32 - text::width(&name, size)) * 0.5;
             text::draw(&mut sheet, &name, x, heading as f32 * 0.12, size, INK);
         }
         for (index, (name, cells)) in (0u32..).zip(&self.rows) {
-            let top = heading + index * row;
+            let (left, top) = (index % across * block, heading + index / across * row);
             for (column, cell) in (0u32..).zip(cells) {
-                sheet.paste(cell, column * cell_width, top);
+                sheet.paste(cell, left + column * cell_width, top);
             }
             let size = caption as f32 * 0.8;
-            text::draw(&mut sheet, name, size * 0.4, (top + cell_height) as f32 + size * 0.1, size, INK);
+            text::draw(&mut sheet, name, left as f32 + size * 0.4, (top + cell_height) as f32 + size * 0.1, size, INK);
         }
         sheet
     }

@@ -55,8 +55,9 @@ fn groups(state: &EditorState, found: &[usize]) -> Vec<(String, Vec<usize>)> {
 
 /// So far beyond the edge rows are still there, for the Tab key to reach, points.
 const BEYOND_SIGHT: f32 = 100.0;
-/// For the number and the reset arrow, points.
-const NUMBER_WIDTH: f32 = 72.0;
+/// For a number of three decimals and its unit, and for the reset arrow, points. A row that is wider pushes the panel wider in
+/// every picture.
+const NUMBER_WIDTH: f32 = 92.0;
 const RESET_WIDTH: f32 = 22.0;
 
 /// A row, or the room that it took last time while it is scrolled out of sight: most of sixty rows are.
@@ -89,11 +90,7 @@ fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
             text = text.weak();
         }
         let label = ui.label(text).on_hover_ui(|ui| explain(ui, spec));
-        if !is_set {
-            let follows = spec.follows.as_ref().and_then(|f| table.get(&f.id));
-            let what = follows.map_or("default".to_owned(), |f| format!("follows {}", f.label.to_lowercase()));
-            ui.label(RichText::new(what).small().italics().weak());
-        }
+        link(state, ui, index);
         label
     });
     let label = label.inner;
@@ -137,6 +134,46 @@ fn row(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
     });
 }
 
+/// Whether the measure follows another one, and from which, with the way to the other state; at the right of the label.
+fn link(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
+    let table = state.table.clone();
+    let spec = &table.specs[index];
+    let is_set = state.breed().set[index];
+    let small = |text: &str| RichText::new(text).small().italics().weak();
+    let Some(leader) = spec.follows.as_ref().and_then(|f| table.get(&f.id)) else {
+        if !is_set {
+            ui.label(small("default"));
+        }
+        return;
+    };
+    let of = leader.label.to_lowercase();
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        // Out of the scroll bar's way.
+        ui.add_space(RESET_WIDTH);
+        let (word, help) = match is_set {
+            true => {
+                let mut linked = state.breed().clone();
+                linked.unset(&table, index);
+                let [now, then] = [state.breed(), &linked].map(|b| spec.from_si(b.values[index]));
+                let suffix = spec.unit.suffix();
+                ("link", format!("Let it follow {of}: {now:.1}{suffix} becomes {then:.1}{suffix}"))
+            }
+            false => ("unlink", format!("Set it as it stands, so that it does not follow {of} any more")),
+        };
+        let name = format!("{}{} {}", word[..1].to_uppercase(), &word[1..], spec.label);
+        let button = ui.add(egui::Button::new(RichText::new(word).small()).small().frame(false)).on_hover_text(help);
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        if button.clicked() && is_set {
+            state.let_follow(index);
+        } else if button.clicked() {
+            state.unlink(index);
+        }
+        if !is_set {
+            ui.add(egui::Label::new(small(&format!("follows {of}"))).truncate());
+        }
+    });
+}
+
 fn menu(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
     if ui.button("Reset to the breed").clicked() {
         state.reset(index);
@@ -147,7 +184,8 @@ fn menu(state: &mut EditorState, ui: &mut egui::Ui, index: usize) {
         state.set_value(index, default);
         ui.close();
     }
-    if state.breed().set[index] && ui.button("Let it follow").clicked() {
+    let can_follow = state.table.specs[index].follows.is_some();
+    if state.breed().set[index] && ui.button(if can_follow { "Let it follow" } else { "Unset it" }).clicked() {
         state.let_follow(index);
         ui.close();
     }

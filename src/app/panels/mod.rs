@@ -4,6 +4,7 @@ pub mod anatomy;
 pub mod breed;
 pub mod files;
 mod keys;
+pub mod measures;
 pub mod view;
 
 use super::input;
@@ -37,6 +38,10 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
         anatomy::ui(state, ui);
     });
     egui::Panel::top("view").show(ui, |ui| view::ui(state, ui));
+    if state.measures.is_open {
+        let panel = egui::Panel::right("taken").default_size(400.0).size_range(260.0..=620.0);
+        panel.show(ui, |ui| measures::ui(state, ui));
+    }
     let central = egui::CentralPanel::no_frame().show(ui, |ui| {
         let area = ui.available_size().max(egui::vec2(1.0, 1.0));
         let (rect, response) = ui.allocate_exact_size(area, egui::Sense::click_and_drag());

@@ -47,6 +47,11 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         ui.checkbox(&mut layers.eyes, "eyes").on_hover_text("Eyeballs");
         ui.checkbox(&mut layers.bone, "bone").on_hover_text("Skull and mandible");
         ui.checkbox(&mut layers.teeth, "teeth").on_hover_text("Crowns of the teeth");
+        ui.separator();
+        let taken = ui.selectable_label(state.measures.is_open, "Measurements");
+        if taken.on_hover_text("What a vet would measure on this head (M)").clicked() {
+            state.measures.is_open = !state.measures.is_open;
+        }
         if ui.selectable_label(state.shows_keys, "?").on_hover_text("Keys").clicked() {
             state.shows_keys = !state.shows_keys;
         }

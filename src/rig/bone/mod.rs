@@ -118,6 +118,22 @@ impl Bones {
         on(&self.skull, &head.skull).or_else(|| on(&self.mandible, &head.mandible)).or_else(constructed)
     }
 
+    /// Every left or median landmark of a head by id, metres, without its bones: where [`Bones::landmark`] finds it on them,
+    /// to the bit, in a hundredth of the time.
+    pub fn landmarks_alone(&self, measures: &Measures, proportions: &Proportions) -> Vec<(&'static str, Vec3)> {
+        let targets = targets(measures, proportions);
+        let list = targets.list();
+        let skin = Implicit::new(proportions);
+        let on = |bone: &Bone, id: &str| {
+            let (_, vertex) = bone.half.landmarks.iter().find(|(known, _)| known == id)?;
+            let vertex = usize::from(*vertex);
+            let p = under_skin(bone.warp.at(vertex, &list)?, proportions, &skin);
+            Some(if bone.half.midline.get(vertex) == Some(&true) { p.with_x(0.0) } else { p })
+        };
+        let place = |k: usize, id| on(&self.skull, id).or_else(|| on(&self.mandible, id)).unwrap_or(list[k]);
+        LANDMARKS.iter().enumerate().map(|(k, l)| (l.id, place(k, l.id))).collect()
+    }
+
     /// Indices of a jaw's teeth, three for each triangle.
     pub fn tooth_indices(upper: bool) -> Vec<u32> {
         let n = if upper { teeth::UPPER.len() } else { teeth::LOWER.len() };

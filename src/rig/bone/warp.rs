@@ -52,14 +52,21 @@ impl Warp {
     /// The points of a head with these landmarks, in the landmarks' unit; one for each point of the map.
     pub(super) fn apply(&self, targets: &[Vec3; LANDMARKS.len()], out: &mut Vec<Vec3>) {
         out.clear();
-        out.extend(self.weights.iter().map(|weights| {
-            let mut p = Vec3::ZERO;
-            for (&[x, yz], t) in weights.iter().zip(targets) {
-                p += Vec3::new(x, yz, yz) * *t;
-            }
-            p
-        }));
+        out.extend(self.weights.iter().map(|weights| weighed(weights, targets)));
     }
+
+    /// The same of one point of the map, to the bit; nothing for a number that no point has.
+    pub(super) fn at(&self, point: usize, targets: &[Vec3; LANDMARKS.len()]) -> Option<Vec3> {
+        Some(weighed(self.weights.get(point)?, targets))
+    }
+}
+
+fn weighed(weights: &[[f32; 2]; LANDMARKS.len()], targets: &[Vec3; LANDMARKS.len()]) -> Vec3 {
+    let mut p = Vec3::ZERO;
+    for (&[x, yz], t) in weights.iter().zip(targets) {
+        p += Vec3::new(x, yz, yz) * *t;
+    }
+    p
 }
 
 /// Gauss and Jordan, with row pivots.
