@@ -133,8 +133,9 @@ pub(super) struct Scene {
     /// none, white, black, grey, silver, or rrggbb; without it, a quiet grey
     #[arg(long, value_name = "COLOUR|none", value_parser = values::background)]
     pub background: Option<Background>,
-    /// What is there, with commas between: skin, eyes, bone, teeth; skin=0.3 is seen through
-    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes", value_parser = Layers::parse)]
+    /// What is there, with commas between: skin, eyes, whiskers, bone, teeth, mouth, tongue; skin=0.3 is seen
+    /// through
+    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes,whiskers", value_parser = Layers::parse)]
     pub layers: Layers,
 }
 

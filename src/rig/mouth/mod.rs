@@ -1,0 +1,128 @@
+//! The inside of the mouth: gums, palate and floor on the arches of the teeth, and the tongue between them.
+//!
+//! Three closed bodies, each one half and its mirror image. They hang on the landmarks of the bone and on the seats of the
+//! teeth, so that they follow every measure; what is upper goes with the skull, what is lower and the tongue with the
+//! mandible.
+
+mod arch;
+mod gums;
+mod tongue;
+
+pub use arch::Arch;
+pub use gums::{N_RUGAE, Tissue};
+
+use super::bone::{Targets, targets, teeth};
+use super::implicit::Implicit;
+use super::proportions::{Measures, Proportions};
+use super::{ControlError, mirror};
+use crate::mesh::{DedgeMesh, MeshError};
+use glam::Vec3;
+
+/// Half of a closed body: what of it no measure changes.
+#[derive(Clone, Debug, Default)]
+pub struct HalfBody {
+    /// Whether each vertex lies in the median plane.
+    pub midline: Vec<bool>,
+    /// Triangles, counter-clockwise seen from outside.
+    faces: Vec<[u16; 3]>,
+    /// What each vertex is made of.
+    tissue: Vec<Tissue>,
+}
+
+impl HalfBody {
+    /// Connectivity of the whole body: the half, then its mirror image.
+    ///
+    /// # Errors
+    /// Where it is not an oriented manifold.
+    pub fn mesh(&self) -> Result<DedgeMesh, MeshError> {
+        DedgeMesh::from_triangles(mirror::n_whole(&self.midline), &mirror::triangles(&self.midline, &self.faces))
+    }
+
+    /// What each vertex of the whole body is made of.
+    pub fn tissue(&self) -> Vec<Tissue> {
+        let off = self.tissue.iter().zip(&self.midline).filter(|(_, middle)| !**middle);
+        self.tissue.iter().chain(off.map(|(tissue, _)| tissue)).copied().collect()
+    }
+
+    /// Two triangles for a cell whose corners are counter-clockwise from outside. Of the two diagonals the one that leaves
+    /// no triangle in the median plane where a body begins.
+    fn cell(&mut self, [a, b, c, d]: [usize; 4]) {
+        self.faces.extend([[a, b, d], [b, c, d]].map(|f| f.map(|v| v as u16)));
+    }
+}
+
+/// The bodies of the mouth, immutable: one per program.
+#[derive(Clone, Debug)]
+pub struct Mouth {
+    /// Upper gums and palate.
+    pub upper: HalfBody,
+    /// Lower gums and the floor of the mouth.
+    pub lower: HalfBody,
+    /// Tongue.
+    pub tongue: HalfBody,
+}
+
+/// One head's mouth; buffers are made once and written again for every breed. Control positions of whole bodies, metres,
+/// head's frame.
+#[derive(Clone, Debug, Default)]
+pub struct MouthOfHead {
+    half: Vec<Vec3>,
+    teeth: [Vec<Vec3>; 2],
+    /// Upper gums and palate.
+    pub upper: Vec<Vec3>,
+    /// Lower gums and the floor of the mouth.
+    pub lower: Vec<Vec3>,
+    /// Tongue.
+    pub tongue: Vec<Vec3>,
+}
+
+impl Default for Mouth {
+    fn default() -> Self {
+        let lower = gums::body();
+        let mut upper = lower.clone();
+        upper.faces.iter_mut().for_each(|f| f.swap(1, 2));
+        for tissue in upper.tissue.iter_mut().filter(|t| **t == Tissue::Floor) {
+            *tissue = Tissue::Palate;
+        }
+        Self { upper, lower, tongue: tongue::body() }
+    }
+}
+
+impl Mouth {
+    /// Connectivity of the three bodies, in the order of the fields.
+    ///
+    /// # Errors
+    /// Where one is not an oriented manifold.
+    pub fn meshes(&self) -> Result<[DedgeMesh; 3], ControlError> {
+        let mesh = |body: &HalfBody| body.mesh().map_err(ControlError::Mesh);
+        Ok([mesh(&self.upper)?, mesh(&self.lower)?, mesh(&self.tongue)?])
+    }
+
+    /// The mouth of one head.
+    pub fn shape(&self, measures: &Measures, proportions: &Proportions, out: &mut MouthOfHead) {
+        let targets: Targets<Vec3> = targets(measures, proportions);
+        let unit = teeth::unit(&targets);
+        let skin = Implicit::new(proportions);
+        let under = |p: Vec3| super::bone::under_skin(p, proportions, &skin, gums::LEAST_TISSUE);
+        let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
+        let MouthOfHead { half, teeth, upper, lower, tongue } = out;
+        for (arch, (body, whole)) in arches.iter().zip([(&self.upper, upper), (&self.lower, lower)]) {
+            gums::place(arch, unit, under, half);
+            body.unfold(half, whole);
+        }
+        let [above, below] = teeth;
+        teeth::place(&targets, true, above);
+        teeth::place(&targets, false, below);
+        tongue::place(&targets, &arches, [above, below], unit, half);
+        self.tongue.unfold(half, tongue);
+    }
+}
+
+impl HalfBody {
+    fn unfold(&self, half: &mut [Vec3], whole: &mut Vec<Vec3>) {
+        for (p, _) in half.iter_mut().zip(&self.midline).filter(|(_, middle)| **middle) {
+            p.x = 0.0;
+        }
+        mirror::unfold(&self.midline, half, whole);
+    }
+}

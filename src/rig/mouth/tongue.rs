@@ -1,0 +1,146 @@
+//! The tongue: at rest inside the lower arch, its tip behind the lower incisors, its back under the palate.
+//!
+//! Size after common figures for a mesaticephalic dog of 30 kg (skull of 200 mm): 90 to 110 mm long, 35 to 40 wide, 6 to
+//! 10 thick, the free part about half. It is as long as its arch lets it be, and as wide as the teeth leave room.
+
+use super::arch::Arch;
+use super::{HalfBody, Tissue};
+use crate::math::ops;
+use crate::rig::bone::Targets;
+use crate::rig::bone::teeth::TOOTH_VERTICES;
+use glam::{Vec3, vec3};
+
+/// Sections from the root to the tip.
+const SECTIONS: usize = 30;
+/// Places around a half section, from the back's midline to the underside's.
+const AROUND: usize = 11;
+/// Between tongue and teeth, canonical millimetres.
+const GAP: f32 = 1.2;
+
+fn at(section: usize, place: usize) -> usize {
+    section * AROUND + place
+}
+
+/// Topology: a half tube with a pole at each end.
+pub(super) fn body() -> HalfBody {
+    let n = SECTIONS * AROUND + 2;
+    let mut body = HalfBody { midline: vec![false; n], faces: Vec::new(), tissue: vec![Tissue::Tongue; n] };
+    for i in 0..SECTIONS {
+        body.midline[at(i, 0)] = true;
+        body.midline[at(i, AROUND - 1)] = true;
+        (AROUND / 2 + 1..AROUND).for_each(|j| body.tissue[at(i, j)] = Tissue::TongueUnder);
+    }
+    let (root, tip) = (n - 2, n - 1);
+    body.midline[root] = true;
+    body.midline[tip] = true;
+    for j in 0..AROUND - 1 {
+        for i in 0..SECTIONS - 1 {
+            body.cell([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+        body.faces.push([root, at(0, j), at(0, j + 1)].map(|v| v as u16));
+        body.faces.push([tip, at(SECTIONS - 1, j + 1), at(SECTIONS - 1, j)].map(|v| v as u16));
+    }
+    body
+}
+
+/// What a tooth takes up.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    low: Vec3,
+    high: Vec3,
+}
+
+fn rooms(teeth: [&Vec<Vec3>; 2]) -> [Vec<Room>; 2] {
+    teeth.map(|vertices| {
+        let left = &vertices[..vertices.len() / 2];
+        let bounds = left.chunks(TOOTH_VERTICES).map(|tooth| {
+            let low = tooth.iter().fold(Vec3::INFINITY, |a, &p| a.min(p));
+            let high = tooth.iter().fold(Vec3::NEG_INFINITY, |a, &p| a.max(p));
+            Room { low, high }
+        });
+        bounds.collect()
+    })
+}
+
+/// A section of the tongue.
+#[derive(Clone, Copy, Debug, Default)]
+struct Section {
+    z: f32,
+    middle: f32,
+    half_width: f32,
+    above: f32,
+    below: f32,
+}
+
+/// Positions of the half, metres.
+pub(super) fn place(t: &Targets<Vec3>, arches: &[Arch; 2], teeth: [&Vec<Vec3>; 2], unit: f32, out: &mut Vec<Vec3>) {
+    let [upper, lower] = arches;
+    let [above, below] = rooms(teeth);
+    let gap = GAP * unit;
+    // Incisors, three to a side, end it in front: the upper ones where the lower jaw stands before them.
+    let front = above[..3].iter().chain(&below[..3]).map(|r| r.low.z).fold(f32::INFINITY, f32::min) - gap;
+    let last = t.lower_last.z;
+    let back = last - 0.17 * (t.infradentale.z - last);
+    let length = (front - back).max(4.0 * unit);
+    let mut sections = [Section::default(); SECTIONS];
+    for (i, s) in sections.iter_mut().enumerate() {
+        // Closer together at the tip, which is round.
+        let f = i as f32 / (SECTIONS - 1) as f32;
+        let f = f + 0.12 * f * (1.0 - f);
+        s.z = back + f * length;
+        let (floor, roof) = (lower.rim(s.z, unit), upper.rim(s.z, unit));
+        let room = (roof - floor).clamp(2.0 * unit, 11.5 * unit);
+        // Thin in front, and the back half grows out of the floor.
+        let thick = (0.70 * room).min(8.6 * unit) * (0.66 + 0.34 * smoothstep(1.0, 0.55, f));
+        let root = smoothstep(0.62, 0.42, f);
+        s.above = 0.5 * thick;
+        s.below = 0.5 * thick + root * 0.45 * room;
+        s.middle = floor + (0.12 + 0.05 * (1.0 - f)) * room + 0.5 * thick;
+        let round = ops::sqrt((1.0 - ops::powf((f - 0.72).max(0.0) / 0.285, 2.0)).max(0.0));
+        let nominal = 18.5 * unit * (0.80 + 0.20 * smoothstep(0.75, 0.25, f));
+        s.half_width = nominal;
+        let reach = 0.6 * length / SECTIONS as f32 + 0.3 * unit;
+        for tooth in above[3..].iter().chain(&below[3..]) {
+            let beside = tooth.low.z - reach < s.z && s.z < tooth.high.z + reach;
+            let level = tooth.low.y < s.middle + 0.75 * s.above && tooth.high.y > s.middle - s.below;
+            if beside && level {
+                s.half_width = s.half_width.min(tooth.low.x - gap);
+            }
+        }
+        s.half_width = (s.half_width.max(1.5 * unit)).min(nominal) * round.max(0.12);
+    }
+    // Narrow places pass smoothly into wide ones.
+    for _ in 0..4 {
+        let before = sections;
+        for i in 1..SECTIONS - 1 {
+            let mean = 0.25 * (before[i - 1].half_width + 2.0 * before[i].half_width + before[i + 1].half_width);
+            sections[i].half_width = mean.min(before[i].half_width);
+        }
+    }
+    out.clear();
+    for s in &sections {
+        for j in 0..AROUND {
+            let angle = core::f32::consts::PI * j as f32 / (AROUND - 1) as f32;
+            let (sin, cos) = (ops::sin(angle), ops::cos(angle));
+            let x = s.half_width * ops::powf(sin.max(0.0), 0.8);
+            let side = if cos > 0.0 { s.above } else { s.below };
+            let mut y = side * cos;
+            // The median groove.
+            y -= match j {
+                0 => 0.30 * s.above,
+                1 => 0.06 * s.above,
+                _ => 0.0,
+            };
+            out.push(vec3(x, s.middle + y, s.z));
+        }
+    }
+    let (first, last) = (sections[0], sections[SECTIONS - 1]);
+    out.push(vec3(0.0, first.middle - 0.3 * first.below, back - 0.02 * length));
+    out.push(vec3(0.0, last.middle, last.z + 0.01 * length));
+}
+
+/// Rises from `a` to `b`, whichever is the larger.
+fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
+    let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
