@@ -19,9 +19,8 @@ const MOUTH: u32 = 3u;
 const EYE: u32 = 4u;
 const CAP: u32 = 5u;
 const BONE: u32 = 6u;
+// And all else that is smooth and moist.
 const TOOTH: u32 = 7u;
-// Moist and soft, let light in: gums, tongue, third eyelid, tears.
-const FLESH: u32 = 8u;
 
 // Light, linear.
 const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
@@ -337,9 +336,6 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         }
         case EYE: {
             light = eye(point, colour);
-        }
-        case FLESH: {
-            light = leather(point, colour, max(gloss, 0.3), 150.0, 0.06, 0.2);
         }
         case CAP: {
             light = colour * diffuse(point, 0.3);

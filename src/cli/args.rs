@@ -321,7 +321,8 @@ pub(super) struct Measure {
     Examples:\n  \
     londra landmarks --breed pug\n  \
     londra landmarks --breed labrador --blend pug=0.3 --json\n  \
-    londra landmarks --breed borzoi --view front --size 800x600"
+    londra landmarks --breed borzoi --view front --size 800x600\n  \
+    londra landmarks --breed labrador --whiskers --json"
 )]
 pub(super) struct Landmarks {
     #[command(flatten)]
@@ -338,6 +339,9 @@ pub(super) struct Landmarks {
     /// Focal length in millimetres on 36 x 24, or ortho; without it, 85
     #[arg(long, value_name = "MM|ortho", requires = "view")]
     pub lens: Option<Lens>,
+    /// Tell the whiskers instead: where each leaves the skin, which way, and how long it is
+    #[arg(long, conflicts_with = "view")]
+    pub whiskers: bool,
     #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]

@@ -25,9 +25,9 @@ fn shade(ring: usize, segment: usize, iris: Vec3) -> Vec3 {
         return Vec3::splat(0.004);
     }
     if ring > 11 {
-        // Sclera, reddish and darker towards the limbus.
-        let t = ((degrees - IRIS) / 25.0).clamp(0.0, 1.0);
-        return vec3(0.20, 0.14, 0.12).lerp(vec3(0.62, 0.55, 0.50), t);
+        // Sclera, brown towards the limbus.
+        let t = ((degrees - IRIS) / 40.0).clamp(0.0, 1.0);
+        return vec3(0.15, 0.095, 0.075).lerp(vec3(0.55, 0.47, 0.42), t);
     }
     // Fibres: a fixed pattern around the axis; paler in the middle, a dark ring at the limbus.
     let t = (degrees - PUPIL) / (IRIS - PUPIL);

@@ -1,10 +1,11 @@
 //! Third eyelids and lines of tears as drawable parts.
 
+use super::PipelineError;
 use super::parts::{Material, MaterialRange, PartTopology};
 use super::values::Values;
-use super::PipelineError;
 use crate::anatomy::Look;
-use crate::rig::eyelids::{self, third_eyelid_meshes, tear_line_meshes};
+use crate::mesh::DedgeMesh;
+use crate::rig::eyelids::{self, tear_line_mesh, third_eyelid_mesh};
 use crate::rig::{ControlError, Eye, Proportions, Rig};
 use crate::subdiv::{Evaluator, Plan, Scheme};
 use glam::{Vec3, vec3};
@@ -12,70 +13,77 @@ use glam::{Vec3, vec3};
 /// Steps of Loop's scheme.
 const STEPS: u32 = 1;
 
+/// One of the left eye, and its mirror image.
+struct Pair {
+    plan: Plan,
+    sides: [Values; 2],
+}
+
 /// Their plans and what they draw.
 pub(super) struct EyelidParts {
     evaluator: Evaluator,
     /// The lower lid's inner margin from the lateral corner to the medial one: vertices of the skin at every level.
     margin: [usize; 7],
-    left: Vec<Vec3>,
-    right: Vec<Vec3>,
-    /// Left and right third eyelid, left and right line of tears.
-    parts: [(Plan, Values); 4],
+    control: Vec<Vec3>,
+    third: Pair,
+    tears: Pair,
 }
 
 impl EyelidParts {
     pub(super) fn new(rig: &Rig) -> Result<Self, PipelineError> {
-        let part = |mesh: &_, name: &'static str, material: Material| -> Result<(Plan, Values), PipelineError> {
-            let plan = Plan::build(mesh, Scheme::Loop, STEPS)?;
-            let indices = plan.indices().to_vec();
-            let ranges = vec![MaterialRange { material, start: 0, count: indices.len() as u32 }];
-            let values = Values::new(PartTopology { name, n_vertices: plan.n_vertices(), indices, ranges });
-            Ok((plan, values))
-        };
-        let [third_l, third_r] = third_eyelid_meshes().map_err(ControlError::Mesh)?;
-        let [tears_l, tears_r] = tear_line_meshes().map_err(ControlError::Mesh)?;
-        let parts = [
-            part(&third_l, "third_eyelid_L", Material::ThirdEyelid)?,
-            part(&third_r, "third_eyelid_R", Material::ThirdEyelid)?,
-            part(&tears_l, "tears_L", Material::Tears)?,
-            part(&tears_r, "tears_R", Material::Tears)?,
-        ];
+        let third = third_eyelid_mesh().map_err(ControlError::Mesh)?;
+        let tears = tear_line_mesh().map_err(ControlError::Mesh)?;
+        let third = Pair::new(&third, ["third_eyelid_L", "third_eyelid_R"], Material::ThirdEyelid)?;
+        let tears = Pair::new(&tears, ["tears_L", "tears_R"], Material::Tears)?;
         let inner = rig.plan().handles().ei;
         let margin = std::array::from_fn(|k| usize::from(inner[(6 + k) % 12]));
-        let evaluator = Evaluator::new(&parts[0].0);
-        Ok(Self { evaluator, margin, left: Vec::new(), right: Vec::new(), parts })
+        Ok(Self { evaluator: Evaluator::new(&third.plan), margin, control: Vec::new(), third, tears })
     }
 
     /// `eye`: the left one; `skin`: positions of the refined skin.
     pub(super) fn shape(&mut self, proportions: &Proportions, eye: &Eye, skin: &[Vec3]) {
-        let Self { evaluator, margin, left, right, parts } = self;
-        let (third, tears) = parts.split_at_mut(2);
-        eyelids::third_eyelid(proportions, eye, left);
-        both(evaluator, left, right, third);
-        eyelids::tear_line(eye, &margin.map(|v| skin[v]), left);
-        both(evaluator, left, right, tears);
+        let Self { evaluator, margin, control, third, tears } = self;
+        eyelids::third_eyelid(proportions, eye, control);
+        third.shape(evaluator, control);
+        eyelids::tear_line(eye, &margin.map(|v| skin[v]), control);
+        tears.shape(evaluator, control);
     }
 
     pub(super) fn paint(&mut self, look: &Look) {
-        // Pink below, dark at the free edge where the lids are dark: the membrane shares their pigment.
-        let membrane = (look.mouth * vec3(0.9, 0.8, 0.8)).lerp(look.lips, 0.45);
+        // The membrane shares the lids' pigment: pink where they are pale.
+        let membrane = (look.mouth * 0.8).lerp(look.lips, 0.68);
         let wet = look.lips.lerp(look.mouth, 0.35) * 0.8;
-        for ((_, values), (colour, gloss)) in
-            self.parts.iter_mut().zip([(membrane, 0.8), (membrane, 0.8), (wet, 1.0), (wet, 1.0)])
-        {
-            values.colours.fill(colour);
-            values.surface.fill(vec3(0.0, gloss, 0.2));
+        for (pair, colour, gloss) in [(&mut self.third, membrane, 0.8), (&mut self.tears, wet, 1.0)] {
+            for values in &mut pair.sides {
+                values.colours.fill(colour);
+                values.surface.fill(vec3(0.0, gloss, 0.2));
+            }
         }
     }
 
     pub(super) fn parts(&self) -> impl Iterator<Item = &Values> {
-        self.parts.iter().map(|(_, values)| values)
+        self.third.sides.iter().chain(&self.tears.sides)
     }
 }
 
-fn both(evaluator: &mut Evaluator, left: &[Vec3], right: &mut Vec<Vec3>, parts: &mut [(Plan, Values)]) {
-    eyelids::mirrored(left, right);
-    for ((plan, values), control) in parts.iter_mut().zip([left, right]) {
-        evaluator.evaluate_into(plan, control, &mut values.positions, &mut values.normals);
+impl Pair {
+    fn new(left: &DedgeMesh, names: [&'static str; 2], material: Material) -> Result<Self, PipelineError> {
+        let plan = Plan::build(left, Scheme::Loop, STEPS)?;
+        let mut mirrored = plan.indices().to_vec();
+        mirrored.as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
+        let values = |name: &'static str, indices: Vec<u32>| {
+            let ranges = vec![MaterialRange { material, start: 0, count: indices.len() as u32 }];
+            Values::new(PartTopology { name, n_vertices: plan.n_vertices(), indices, ranges })
+        };
+        let sides = [values(names[0], plan.indices().to_vec()), values(names[1], mirrored)];
+        Ok(Self { plan, sides })
+    }
+
+    fn shape(&mut self, evaluator: &mut Evaluator, control: &[Vec3]) {
+        let [left, right] = &mut self.sides;
+        evaluator.evaluate_into(&self.plan, control, &mut left.positions, &mut left.normals);
+        for (from, to) in [(&left.positions, &mut right.positions), (&left.normals, &mut right.normals)] {
+            from.iter().zip(to).for_each(|(l, r)| *r = vec3(-l.x, l.y, l.z));
+        }
     }
 }

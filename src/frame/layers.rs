@@ -44,15 +44,8 @@ impl Layers {
     pub const NAMES: [&'static str; 7] = ["skin", "eyes", "whiskers", "bone", "teeth", "mouth", "tongue"];
 
     /// Nothing.
-    pub const NONE: Layers = Layers {
-        skin: 0.0,
-        eyes: false,
-        whiskers: false,
-        bone: false,
-        teeth: false,
-        mouth: false,
-        tongue: false,
-    };
+    pub const NONE: Layers =
+        Layers { skin: 0.0, eyes: false, whiskers: false, bone: false, teeth: false, mouth: false, tongue: false };
 
     /// From a list with commas between: `bone,teeth,skin=0.3`. What is not named is not there.
     ///

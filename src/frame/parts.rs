@@ -115,10 +115,18 @@ pub struct Frame<'a> {
     pub revisions: Revisions,
 }
 
-impl Frame<'_> {
-    /// Lowest and highest corner over all parts, metres.
+impl<'a> Frame<'a> {
+    /// Every part but the whiskers, which neither fill a picture nor hide what lies behind them; where there is nothing
+    /// else, those.
+    pub fn body(&self) -> impl Iterator<Item = &Part<'a>> + Clone {
+        let is_whisker = |part: &Part<'_>| part.topology.ranges.iter().all(|r| r.material == Material::Whisker);
+        let all = self.parts.iter().all(is_whisker);
+        self.parts.iter().filter(move |part| all || !is_whisker(part))
+    }
+
+    /// Lowest and highest corner of the [body](Frame::body), metres.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let all = self.parts.iter().flat_map(|p| p.positions.iter());
+        let all = self.body().flat_map(|p| p.positions.iter());
         all.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)))
     }
 

@@ -14,7 +14,7 @@ const SECTIONS: usize = 5;
 const CORNERS: usize = 3;
 const VERTICES: usize = SECTIONS * CORNERS + 1;
 /// Radius at the root, metres on a cranium of 106 mm.
-const RADIUS: f32 = 0.000_19;
+const RADIUS: f32 = 0.000_16;
 /// How far a tube goes into the skin, as a part of its length.
 const SUNK: f32 = 0.02;
 
@@ -56,7 +56,9 @@ impl WhiskerParts {
         };
         self.whiskers.clear();
         for (f, anchor) in self.follicles.iter().zip(&self.anchors) {
-            let normal = of_skin(&skin.normals, anchor).normalize_or(Vec3::Y);
+            let [p, q, r] = anchor.corners.map(|v| skin.positions[v as usize]);
+            let face = (q - p).cross(r - p).normalize_or_zero();
+            let normal = (of_skin(&skin.normals, anchor) + face).normalize_or(Vec3::Y);
             let along = back(of_skin(&skin.flow, anchor), normal);
             let across = normal.cross(along);
             let direction = (normal * f.lean.x + along * f.lean.y + across * f.lean.z).normalize_or(normal);
@@ -170,7 +172,7 @@ fn topology(n: usize) -> PartTopology {
 /// A tube that bends along the hair and droops a little.
 fn tube(whisker: &Whisker, along: Vec3, radius: f32, positions: &mut [Vec3], normals: &mut [Vec3]) {
     let Whisker { position, direction, length, .. } = *whisker;
-    let bend = along * 0.10 - Vec3::Y * 0.08;
+    let bend = along * 0.16 - Vec3::Y * 0.10;
     let at = |s: f32| position + (direction * s + bend * (s * s)) * length;
     let side = direction.cross(along).normalize_or(Vec3::X);
     for s in 0..SECTIONS {

@@ -7,7 +7,7 @@ use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
 /// Ways of shading, one pipeline each: the numbers of `mesh.wgsl`.
-const KINDS: [u32; 9] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+const KINDS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 /// How much work a pixel is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,8 +29,12 @@ fn kind(material: Material) -> u32 {
         Material::Sclera | Material::Iris | Material::Pupil => 4,
         Material::Cap => 5,
         Material::Bone => 6,
-        Material::Tooth | Material::Whisker => 7,
-        Material::Gum | Material::Tongue | Material::ThirdEyelid | Material::Tears => 8,
+        Material::Tooth
+        | Material::Gum
+        | Material::Tongue
+        | Material::ThirdEyelid
+        | Material::Tears
+        | Material::Whisker => 7,
     }
 }
 
@@ -64,8 +68,7 @@ impl MeshPass {
         });
         let module = sources.compile(device, ShaderFile::Mesh)?;
         let pipelines = build_checked(device, ShaderFile::Mesh, || {
-            [false, true]
-                .map(|clear| KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, clear)))
+            [false, true].map(|clear| KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, clear)))
         })?;
         Ok(Self { pipelines, bindings: bindings(device, queue, &own, shadow) })
     }

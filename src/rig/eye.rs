@@ -15,10 +15,10 @@ pub struct Eye {
 }
 
 /// Width of the cornea as a part of the globe's diameter, and its least and most, metres: 13 to 17 mm.
-const CORNEA: [f32; 3] = [0.80, 0.013, 0.017];
+const CORNEA: [f32; 3] = [0.83, 0.013, 0.017];
 /// Height of the cornea as a part of its width.
-const LOWER: f32 = 0.95;
-/// How far the cornea's apex stands out of the globe, as a part of its radius: its own radius is then 0.92 of the globe's.
+const LOWER: f32 = 0.97;
+/// How far the cornea's apex stands out of the globe, as a part of its radius: its own radius is then nine tenths of the globe's.
 const BULGE: f32 = 0.065;
 
 impl Eye {

@@ -6,7 +6,7 @@ use super::deform::orbit_axes;
 use super::{Eye, Proportions};
 use crate::math::ops;
 use crate::mesh::{DedgeMesh, MeshError};
-use glam::{Vec3, vec3};
+use glam::Vec3;
 
 /// Rows of the third eyelid from below upwards, and columns from its root to its free edge.
 const ROWS: usize = 15;
@@ -20,13 +20,13 @@ const CORNERS: usize = 6;
 /// Vertices of the line of tears.
 pub const TEAR_LINE: usize = SECTIONS * CORNERS + 2;
 
-/// What is seen of the third eyelid, radians of the globe from the medial corner: 1.8 mm on a globe of 20.5 mm.
-const SEEN: f32 = 0.18;
+/// What is seen of the third eyelid, radians of the globe from the medial corner: 1.6 mm on a globe of 20.5 mm.
+const SEEN: f32 = 0.16;
 /// Of it hidden behind the corner, and how far it goes under the lids upwards and downwards.
 const HIDDEN: f32 = 0.35;
-const HALF_HEIGHT: f32 = 0.72;
+const HALF_HEIGHT: f32 = 1.0;
 /// Above the globe, as parts of its radius: its inner side, its outer side at the root and at the free edge.
-const SHEETS: [f32; 3] = [0.004, 0.016, 0.030];
+const SHEETS: [f32; 3] = [0.008, 0.020, 0.032];
 
 fn on_sheet(sheet: usize, row: usize, column: usize) -> u32 {
     ((sheet * ROWS + row) * COLUMNS + column) as u32
@@ -73,25 +73,20 @@ fn tear_line_faces() -> Vec<[u32; 3]> {
     faces
 }
 
-/// Connectivity of the left and the right third eyelid.
+/// Connectivity of the left third eyelid.
 ///
 /// # Errors
 /// Never: a test walks it.
-pub fn third_eyelid_meshes() -> Result<[DedgeMesh; 2], MeshError> {
-    pair(THIRD_EYELID, third_eyelid_faces())
+pub fn third_eyelid_mesh() -> Result<DedgeMesh, MeshError> {
+    DedgeMesh::from_triangles(THIRD_EYELID, &third_eyelid_faces())
 }
 
-/// Connectivity of the left and the right line of tears.
+/// Connectivity of the left line of tears.
 ///
 /// # Errors
 /// Never: a test walks it.
-pub fn tear_line_meshes() -> Result<[DedgeMesh; 2], MeshError> {
-    pair(TEAR_LINE, tear_line_faces())
-}
-
-fn pair(n: usize, left: Vec<[u32; 3]>) -> Result<[DedgeMesh; 2], MeshError> {
-    let right: Vec<[u32; 3]> = left.iter().map(|&[a, b, c]| [a, c, b]).collect();
-    Ok([DedgeMesh::from_triangles(n, &left)?, DedgeMesh::from_triangles(n, &right)?])
+pub fn tear_line_mesh() -> Result<DedgeMesh, MeshError> {
+    DedgeMesh::from_triangles(TEAR_LINE, &tear_line_faces())
 }
 
 /// The left third eyelid (`out`: [`THIRD_EYELID`] positions, metres): a crescent on the globe, its free edge hollow
@@ -104,7 +99,7 @@ pub fn third_eyelid(s: &Proportions, eye: &Eye, out: &mut Vec<Vec3>) {
     for sheet in 0..2 {
         for r in 0..ROWS {
             let v = 2.0 * r as f32 / (ROWS - 1) as f32 - 1.0;
-            let edge = corner - SEEN - 0.30 * v * v;
+            let edge = corner - SEEN - 0.45 * v * v;
             let root = corner + HIDDEN;
             // A little below the corner, as the slit slopes down to it.
             let up = HALF_HEIGHT * v - 0.05;
@@ -163,10 +158,4 @@ fn curve(points: &[Vec3; 7], f: f32) -> Vec3 {
     let k = k as isize;
     let (p, q, r, s) = (point(k - 1), point(k), point(k + 1), point(k + 2));
     0.5 * (2.0 * q + (r - p) * t + (2.0 * p - 5.0 * q + 4.0 * r - s) * (t * t) + (3.0 * (q - r) + s - p) * (t * t * t))
-}
-
-/// The mirror image of positions: those of the right eye.
-pub fn mirrored(left: &[Vec3], out: &mut Vec<Vec3>) {
-    out.clear();
-    out.extend(left.iter().map(|p| vec3(-p.x, p.y, p.z)));
 }

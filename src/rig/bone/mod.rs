@@ -101,7 +101,7 @@ impl Bones {
         for (bone, whole) in [(&self.skull, skull), (&self.mandible, mandible)] {
             bone.warp.apply(&list, half);
             for (p, &middle) in half.iter_mut().zip(&bone.half.midline) {
-                *p = under_skin(*p, proportions, &skin, LEAST_TISSUE);
+                *p = under_skin(*p, proportions, (&skin, Layer::Whole), LEAST_TISSUE);
                 if middle {
                     p.x = 0.0;
                 }
@@ -137,12 +137,12 @@ impl Bones {
     }
 }
 
-/// The point, or where it comes to lie when the skin is nearer than `least` head units.
-pub(super) fn under_skin(p: Vec3, s: &Proportions, skin: &Implicit, least: f32) -> Vec3 {
+/// The point, or where it comes to lie when that skin is nearer than `least` head units.
+pub(super) fn under_skin(p: Vec3, s: &Proportions, (skin, layer): (&Implicit, Layer), least: f32) -> Vec3 {
     let mut q = s.proportional(p);
     let mut moved = false;
     for _ in 0..STEPS {
-        let (d, g) = skin.sample(q, Layer::Whole);
+        let (d, g) = skin.sample(q, layer);
         let over = d + least;
         if over <= 0.0 {
             break;

@@ -1,8 +1,9 @@
 //! The curve on which the teeth of a jaw stand, from the middle of its front to behind the last tooth and on to the end of
 //! the palate, as ribs: each from outside the teeth to the median plane.
 
+use crate::math::ops;
 use crate::rig::bone::Targets;
-use crate::rig::bone::teeth::{self, SUNK};
+use crate::rig::bone::teeth::{self, SUNK, Seat};
 use glam::{Vec3, vec3};
 
 /// Ribs in front of the canine, between it and the last tooth, and behind.
@@ -48,12 +49,8 @@ impl Arch {
         // A place for each tooth: where, half width, bone, margin.
         let mut places: Vec<(Vec3, [f32; 3])> = Vec::with_capacity(seats.len() + 2);
         for seat in &seats {
-            // A crown that is turned is wider across the arch.
-            let [along, across, _] = seat.axes;
-            let sideways = if seat.root.x < 0.5 * seats[3].root.x { Vec3::Z } else { Vec3::X };
-            let half = 0.5 * ((seat.size.x * along.dot(sideways)).abs() + (seat.size.y * across.dot(sideways)).abs());
             let margin = (0.6 * seat.size.z).clamp((SUNK + 0.3) * unit, (SUNK + 0.9) * unit);
-            places.push((seat.root, [half.min(0.6 * seat.size.x.max(seat.size.y)), seat.inset + BONE[usize::from(!upper)] * unit, margin]));
+            places.push((seat.root, [0.5 * seat.size.y, seat.inset + BONE[usize::from(!upper)] * unit, margin]));
         }
         let (first, last) = (places[0], places[places.len() - 1]);
         let front = vec3(0.0, first.0.y, first.0.z + 0.3 * (first.0.z - places[1].0.z).max(0.0));
@@ -77,6 +74,7 @@ impl Arch {
                 ribs[k].outwards = (before[k - 1] + 2.0 * before[k] + before[k + 1]).normalize_or(before[k]);
             }
         }
+        hold(&mut ribs, &seats);
         middles(&mut ribs);
         Arch { ribs, up }
     }
@@ -133,6 +131,32 @@ fn smooth(ribs: &mut [Rib]) {
             ribs[k].bone = mean(a.bone, b.bone, c.bone);
             ribs[k].margin = mean(a.margin, b.margin, c.margin);
         }
+    }
+}
+
+/// Widens ribs to hold the teeth beside them: crowns that are turned are wider across the arch.
+fn hold(ribs: &mut [Rib], seats: &[Seat]) {
+    let wanted: Vec<f32> = ribs
+        .iter()
+        .map(|rib| {
+            let extent = |seat: &Seat| {
+                let [along, across, _] = seat.axes;
+                let reach = |way: Vec3| {
+                    let (u, v) = (0.5 * seat.size.x * along.dot(way), 0.5 * seat.size.y * across.dot(way));
+                    ops::sqrt(u * u + v * v)
+                };
+                let off = seat.root - rib.neck;
+                let beside = off.dot(vec3(rib.outwards.z, 0.0, -rib.outwards.x)).abs();
+                let extent = off.dot(rib.outwards).abs() + reach(rib.outwards);
+                // A tooth a little farther along counts too, since ribs stand apart.
+                if beside < 1.15 * reach(vec3(rib.outwards.z, 0.0, -rib.outwards.x)) { extent } else { 0.0 }
+            };
+            seats.iter().map(extent).fold(rib.half, f32::max)
+        })
+        .collect();
+    for (k, rib) in ribs.iter_mut().enumerate() {
+        let (before, after) = (wanted[k.saturating_sub(1)], wanted[(k + 1).min(wanted.len() - 1)]);
+        rib.half = wanted[k].max(0.25 * (before + 2.0 * wanted[k] + after));
     }
 }
 

@@ -17,6 +17,8 @@ const FIRST: usize = PARTS[0] + 1;
 /// How far a ridge stands out at most, canonical millimetres.
 const RIDGE: f32 = 0.9;
 
+/// Gum over bone at least, canonical millimetres.
+pub(super) const COVER: f32 = 1.2;
 /// Skin over gum at least, head units.
 pub(super) const LEAST_TISSUE: f32 = 0.1;
 
@@ -101,26 +103,32 @@ fn ridge(rib: usize) -> f32 {
     }
 }
 
-/// Positions of the half (metres), `under`: keeps a point under the skin.
-pub(super) fn place(arch: &Arch, unit: f32, under: impl Fn(Vec3) -> Vec3, out: &mut Vec<Vec3>) {
+/// Positions of the half (metres); `off` keeps a point off the bone, `under` under the skin.
+pub(super) fn place(
+    arch: &Arch,
+    unit: f32,
+    off: impl Fn(Vec3) -> Vec3,
+    under: impl Fn(Vec3) -> Vec3,
+    out: &mut Vec<Vec3>,
+) {
     out.clear();
     out.resize(RIBS * (2 * COLUMNS - 1), Vec3::ZERO);
     let upper = arch.up < 0.0;
     let height = |h: f32| vec3(0.0, arch.up * h, 0.0);
     for (k, rib) in arch.ribs.iter().enumerate() {
         let Rib { neck, middle, outwards, half, bone, margin } = *rib;
-        let wall = (bone + 0.9 * unit).max(half + 1.6 * unit);
-        let edge = half + 0.7 * unit;
+        let wall = (bone + 1.4 * unit).max(half + 1.6 * unit);
         let inner = (neck - middle).length();
-        // Never past the median plane, nor past the next rib where the arch is tight.
-        let foot = (edge + 2.2 * unit).min(0.75 * inner);
+        // Never past the median plane.
+        let edge = half + 0.7 * unit;
         let edge_in = edge.min(0.55 * inner);
+        let foot = (edge + 2.2 * unit).min(0.75 * inner);
         // Inside the teeth the rib runs to the median plane.
         let inwards = (middle - neck).normalize_or(-outwards);
         let gum = [
             outwards * wall - height(6.0 * unit),
-            outwards * wall - height(2.0 * unit),
-            outwards * (0.5 * (wall + edge)) + height(0.55 * margin),
+            outwards * wall - height(1.5 * unit),
+            outwards * (0.35 * edge + 0.65 * wall) + height(0.75 * margin),
             outwards * edge + height(margin),
             height(margin),
             inwards * edge_in + height(margin),
@@ -128,6 +136,8 @@ pub(super) fn place(arch: &Arch, unit: f32, under: impl Fn(Vec3) -> Vec3, out: &
         ];
         for (c, offset) in gum.into_iter().enumerate() {
             let p = neck + offset;
+            // Between the teeth there is bone, and nothing is seen.
+            let p = if c == 4 { p } else { off(p) };
             out[seen(k, c)] = if c < 4 { under(p) } else { p };
         }
         let foot = neck + gum[GUM - 1];
@@ -137,15 +147,14 @@ pub(super) fn place(arch: &Arch, unit: f32, under: impl Fn(Vec3) -> Vec3, out: &
             // Across: flat in the middle, steeper at the gum.
             let across = 1.0 - (1.0 - t) * (1.0 - t);
             let flat = vec3(foot.x * (1.0 - t), foot.y, foot.z + (middle.z - foot.z) * across);
-            let deep = if upper {
+            let (deep, ridge) = if upper {
                 let vault = 2.6 * smoothstep(0.08, 0.3, along) * (1.0 - 0.5 * smoothstep(0.7, 1.0, along));
-                let ridge = RIDGE * ridge(k) * smoothstep(0.0, 0.35, t) * (1.0 - 0.6 * smoothstep(0.8, 1.0, t));
-                -vault * across + ridge
+                (-vault, RIDGE * ridge(k) * smoothstep(0.0, 0.35, t) * (1.0 - 0.6 * smoothstep(0.8, 1.0, t)))
             } else {
                 // Under the tongue; the symphysis lies high in front.
-                -(0.6 + 4.4 * smoothstep(0.1, 0.3, along)) * across
+                (-0.6 - 4.4 * smoothstep(0.1, 0.3, along), 0.0)
             };
-            out[seen(k, GUM + c)] = flat + height(deep * unit);
+            out[seen(k, GUM + c)] = off(flat + height(deep * across * unit)) + height(ridge * unit);
         }
         // The way back, inside the bone.
         let (outer, end) = (out[seen(k, 0)], out[seen(k, COLUMNS - 1)] - height(2.2 * unit));

@@ -11,15 +11,15 @@ mod tongue;
 pub use arch::Arch;
 pub use gums::{N_RUGAE, Tissue};
 
-use super::bone::{Targets, targets, teeth};
-use super::implicit::Implicit;
+use super::bone::{BoneField, BoneMesh, Targets, targets, teeth};
+use super::implicit::{Implicit, Layer};
 use super::proportions::{Measures, Proportions};
 use super::{ControlError, mirror};
 use crate::mesh::{DedgeMesh, MeshError};
 use glam::Vec3;
 
 /// Half of a closed body: what of it no measure changes.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct HalfBody {
     /// Whether each vertex lies in the median plane.
     pub midline: Vec<bool>,
@@ -103,17 +103,19 @@ impl Mouth {
         let targets: Targets<Vec3> = targets(measures, proportions);
         let unit = teeth::unit(&targets);
         let skin = Implicit::new(proportions);
-        let under = |p: Vec3| super::bone::under_skin(p, proportions, &skin, gums::LEAST_TISSUE);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
+        let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
         let MouthOfHead { half, teeth, upper, lower, tongue } = out;
-        for (arch, (body, whole)) in arches.iter().zip([(&self.upper, upper), (&self.lower, lower)]) {
-            gums::place(arch, unit, under, half);
+        let bodies = [(&self.upper, upper, Layer::Upper), (&self.lower, lower, Layer::Lower)];
+        for ((arch, field), (body, whole, layer)) in arches.iter().zip(&fields).zip(bodies) {
+            let under = |p: Vec3| super::bone::under_skin(p, proportions, (&skin, layer), gums::LEAST_TISSUE);
+            gums::place(arch, unit, |p| off_bone(p, field, gums::COVER, unit), under, half);
             body.unfold(half, whole);
         }
         let [above, below] = teeth;
         teeth::place(&targets, true, above);
         teeth::place(&targets, false, below);
-        tongue::place(&targets, &arches, [above, below], unit, half);
+        tongue::place(&targets, &arches, [above, below], &fields, half);
         self.tongue.unfold(half, tongue);
     }
 }
@@ -125,4 +127,17 @@ impl HalfBody {
         }
         mirror::unfold(&self.midline, half, whole);
     }
+}
+
+/// The point, or where it comes to lie when bone is nearer than `cover` canonical millimetres.
+fn off_bone(mut p: Vec3, bone: &BoneField, cover: f32, unit: f32) -> Vec3 {
+    for _ in 0..2 {
+        let (d, g) = bone.sample(p, 0.1 * unit);
+        let over = cover * unit - d;
+        if over <= 0.0 {
+            break;
+        }
+        p += (g * (over / g.length_squared().max(0.2))).clamp_length_max(3.0 * unit);
+    }
+    p
 }

@@ -4,10 +4,10 @@
 //! 10 thick, the free part about half. It is as long as its arch lets it be, and as wide as the teeth leave room.
 
 use super::arch::Arch;
-use super::{HalfBody, Tissue};
+use super::{HalfBody, Tissue, off_bone};
 use crate::math::ops;
-use crate::rig::bone::Targets;
-use crate::rig::bone::teeth::TOOTH_VERTICES;
+use crate::rig::bone::teeth::{self, TOOTH_VERTICES};
+use crate::rig::bone::{BoneField, Targets};
 use glam::{Vec3, vec3};
 
 /// Sections from the root to the tip.
@@ -16,6 +16,9 @@ const SECTIONS: usize = 30;
 const AROUND: usize = 11;
 /// Between tongue and teeth, canonical millimetres.
 const GAP: f32 = 1.2;
+/// Between tongue and bone, canonical millimetres: under the palate with its ridges; over the floor where the tongue is
+/// free, and where it grows out of it.
+const COVER: [f32; 3] = [2.6, 1.9, 0.3];
 
 fn at(section: usize, place: usize) -> usize {
     section * AROUND + place
@@ -65,6 +68,8 @@ fn rooms(teeth: [&Vec<Vec3>; 2]) -> [Vec<Room>; 2] {
 /// A section of the tongue.
 #[derive(Clone, Copy, Debug, Default)]
 struct Section {
+    /// From root to tip, 0 to 1.
+    along: f32,
     z: f32,
     middle: f32,
     half_width: f32,
@@ -72,13 +77,20 @@ struct Section {
     below: f32,
 }
 
-/// Positions of the half, metres.
-pub(super) fn place(t: &Targets<Vec3>, arches: &[Arch; 2], teeth: [&Vec<Vec3>; 2], unit: f32, out: &mut Vec<Vec3>) {
+/// Positions of the half, metres; `bones`: skull and mandible.
+pub(super) fn place(
+    t: &Targets<Vec3>,
+    arches: &[Arch; 2],
+    teeth: [&Vec<Vec3>; 2],
+    bones: &[BoneField; 2],
+    out: &mut Vec<Vec3>,
+) {
+    let unit = teeth::unit(t);
     let [upper, lower] = arches;
     let [above, below] = rooms(teeth);
     let gap = GAP * unit;
-    // Incisors, three to a side, end it in front: the upper ones where the lower jaw stands before them.
-    let front = above[..3].iter().chain(&below[..3]).map(|r| r.low.z).fold(f32::INFINITY, f32::min) - gap;
+    // The middle incisors end it in front: the upper ones where the lower jaw stands before them.
+    let front = above[0].low.z.min(below[0].low.z) - gap;
     let last = t.lower_last.z;
     let back = last - 0.17 * (t.infradentale.z - last);
     let length = (front - back).max(4.0 * unit);
@@ -86,28 +98,28 @@ pub(super) fn place(t: &Targets<Vec3>, arches: &[Arch; 2], teeth: [&Vec<Vec3>; 2
     for (i, s) in sections.iter_mut().enumerate() {
         // Closer together at the tip, which is round.
         let f = i as f32 / (SECTIONS - 1) as f32;
-        let f = f + 0.12 * f * (1.0 - f);
+        let f = f + 0.4 * f * (1.0 - f);
         s.z = back + f * length;
         let (floor, roof) = (lower.rim(s.z, unit), upper.rim(s.z, unit));
         let room = (roof - floor).clamp(2.0 * unit, 11.5 * unit);
         // Thin in front, and the back half grows out of the floor.
         let thick = (0.70 * room).min(8.6 * unit) * (0.66 + 0.34 * smoothstep(1.0, 0.55, f));
-        let root = smoothstep(0.62, 0.42, f);
+        let root = smoothstep(0.50, 0.32, f);
         s.above = 0.5 * thick;
         s.below = 0.5 * thick + root * 0.45 * room;
         s.middle = floor + (0.12 + 0.05 * (1.0 - f)) * room + 0.5 * thick;
-        let round = ops::sqrt((1.0 - ops::powf((f - 0.72).max(0.0) / 0.285, 2.0)).max(0.0));
         let nominal = 18.5 * unit * (0.80 + 0.20 * smoothstep(0.75, 0.25, f));
         s.half_width = nominal;
         let reach = 0.6 * length / SECTIONS as f32 + 0.3 * unit;
-        for tooth in above[3..].iter().chain(&below[3..]) {
+        for tooth in above[1..].iter().chain(&below[1..]) {
             let beside = tooth.low.z - reach < s.z && s.z < tooth.high.z + reach;
             let level = tooth.low.y < s.middle + 0.75 * s.above && tooth.high.y > s.middle - s.below;
             if beside && level {
                 s.half_width = s.half_width.min(tooth.low.x - gap);
             }
         }
-        s.half_width = (s.half_width.max(1.5 * unit)).min(nominal) * round.max(0.12);
+        s.half_width = s.half_width.max(1.5 * unit).min(nominal);
+        s.along = f;
     }
     // Narrow places pass smoothly into wide ones.
     for _ in 0..4 {
@@ -119,6 +131,10 @@ pub(super) fn place(t: &Targets<Vec3>, arches: &[Arch; 2], teeth: [&Vec<Vec3>; 2
     }
     out.clear();
     for s in &sections {
+        // Both ends are round, the tip over a longer way.
+        let to_end = [(s.along - 0.80) / 0.205, (0.08 - s.along) / 0.09].map(|t| t.max(0.0));
+        let round = to_end.map(|t| ops::sqrt((1.0 - t * t).max(0.0))).into_iter().fold(1.0, f32::min).max(0.2);
+        let s = Section { half_width: s.half_width * round, ..*s };
         for j in 0..AROUND {
             let angle = core::f32::consts::PI * j as f32 / (AROUND - 1) as f32;
             let (sin, cos) = (ops::sin(angle), ops::cos(angle));
@@ -131,7 +147,12 @@ pub(super) fn place(t: &Targets<Vec3>, arches: &[Arch; 2], teeth: [&Vec<Vec3>; 2
                 1 => 0.06 * s.above,
                 _ => 0.0,
             };
-            out.push(vec3(x, s.middle + y, s.z));
+            let p = vec3(x, s.middle + y, s.z);
+            let free = smoothstep(0.34, 0.48, s.along);
+            let cover = COVER[2] + free * (COVER[1] - COVER[2]);
+            let p = off_bone(off_bone(p, &bones[1], cover, unit), &bones[0], COVER[0], unit);
+            // Sections stay flat, and each on its side.
+            out.push(vec3(p.x.clamp(0.0, x), p.y, s.z));
         }
     }
     let (first, last) = (sections[0], sections[SECTIONS - 1]);
