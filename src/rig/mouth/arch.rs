@@ -31,6 +31,13 @@ pub struct Rib {
     pub margin: f32,
 }
 
+impl Rib {
+    /// From the necks' middle to the gum's margins.
+    pub(super) fn edge(&self, unit: f32) -> f32 {
+        self.half + 0.7 * unit
+    }
+}
+
 /// One jaw's arch.
 #[derive(Clone, Debug)]
 pub struct Arch {
@@ -57,10 +64,9 @@ impl Arch {
         places.insert(0, (front, first.1));
         // Behind the last tooth the gum ends; the palate and the floor go on to the end of the hard palate.
         let end = vec3(0.8 * last.0.x, last.0.y, t.staphylion.z.min(last.0.z - 8.0 * unit));
-        let thin = [0.5 * last.1[0], 0.5 * (last.1[0] + last.1[2]), (SUNK + 0.6) * unit];
-        places.push((last.0.lerp(end, 0.3), thin));
+        let thin = [0.5 * last.1[0], 0.5 * last.1[0] + 2.0 * unit, (SUNK + 0.6) * unit];
         places.push((end, thin));
-        let mut ribs = sampled(&places, &[0, 4, seats.len(), places.len() - 1]);
+        let mut ribs = sampled(&places, &[0, 4, seats.len(), seats.len() + 1]);
         smooth(&mut ribs);
         let n = ribs.len();
         for k in 0..n {
@@ -77,6 +83,12 @@ impl Arch {
         hold(&mut ribs, &seats);
         middles(&mut ribs);
         Arch { ribs, up }
+    }
+
+    /// Where a rib's gum begins towards the tongue, at the height of the necks.
+    pub(super) fn inner(&self, rib: &Rib, unit: f32) -> Vec3 {
+        let way = rib.middle - rib.neck;
+        rib.neck + way.normalize_or(-rib.outwards) * rib.edge(unit).min(0.55 * way.length())
     }
 
     /// Height of the bone's rim at a distance along the head, straight between ribs and level beyond them.
@@ -149,7 +161,9 @@ fn hold(ribs: &mut [Rib], seats: &[Seat]) {
                 let beside = off.dot(vec3(rib.outwards.z, 0.0, -rib.outwards.x)).abs();
                 let extent = off.dot(rib.outwards).abs() + reach(rib.outwards);
                 // A tooth a little farther along counts too, since ribs stand apart.
-                if beside < 1.15 * reach(vec3(rib.outwards.z, 0.0, -rib.outwards.x)) { extent } else { 0.0 }
+                let along = reach(vec3(rib.outwards.z, 0.0, -rib.outwards.x));
+                let own = off.dot(rib.outwards).abs() < reach(rib.outwards);
+                if own && beside < 1.15 * along { extent } else { 0.0 }
             };
             seats.iter().map(extent).fold(rib.half, f32::max)
         })

@@ -106,10 +106,10 @@ impl Mouth {
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
         let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
         let MouthOfHead { half, teeth, upper, lower, tongue } = out;
-        let bodies = [(&self.upper, upper, Layer::Upper), (&self.lower, lower, Layer::Lower)];
+        let bodies = [(&self.upper, upper, Layer::Whole), (&self.lower, lower, Layer::Lower)];
         for ((arch, field), (body, whole, layer)) in arches.iter().zip(&fields).zip(bodies) {
             let under = |p: Vec3| super::bone::under_skin(p, proportions, (&skin, layer), gums::LEAST_TISSUE);
-            gums::place(arch, unit, |p| off_bone(p, field, gums::COVER, unit), under, half);
+            gums::place(arch, unit, field, under, half);
             body.unfold(half, whole);
         }
         let [above, below] = teeth;

@@ -18,7 +18,7 @@ const AROUND: usize = 11;
 const GAP: f32 = 1.2;
 /// Between tongue and bone, canonical millimetres: under the palate with its ridges; over the floor where the tongue is
 /// free, and where it grows out of it.
-const COVER: [f32; 3] = [2.6, 1.9, 0.3];
+const COVER: [f32; 3] = [2.6, 2.3, 0.3];
 
 fn at(section: usize, place: usize) -> usize {
     section * AROUND + place
@@ -73,6 +73,9 @@ struct Section {
     z: f32,
     middle: f32,
     half_width: f32,
+    /// Where the lower gum begins, and the height of its margin.
+    gum: f32,
+    margin: f32,
     above: f32,
     below: f32,
 }
@@ -106,7 +109,7 @@ pub(super) fn place(
         let thick = (0.70 * room).min(8.6 * unit) * (0.66 + 0.34 * smoothstep(1.0, 0.55, f));
         let root = smoothstep(0.50, 0.32, f);
         s.above = 0.5 * thick;
-        s.below = 0.5 * thick + root * 0.45 * room;
+        s.below = 0.5 * thick + root * 0.35 * room;
         s.middle = floor + (0.12 + 0.05 * (1.0 - f)) * room + 0.5 * thick;
         let nominal = 18.5 * unit * (0.80 + 0.20 * smoothstep(0.75, 0.25, f));
         s.half_width = nominal;
@@ -118,6 +121,14 @@ pub(super) fn place(
                 s.half_width = s.half_width.min(tooth.low.x - gap);
             }
         }
+        s.gum = f32::INFINITY;
+        for rib in &lower.ribs {
+            let gum = lower.inner(rib, unit);
+            if (gum.z - s.z).abs() < reach {
+                s.gum = s.gum.min((gum.x - 0.8 * unit).max(0.8 * unit));
+            }
+        }
+        s.margin = floor + 1.6 * unit;
         s.half_width = s.half_width.max(1.5 * unit).min(nominal);
         s.along = f;
     }
@@ -147,10 +158,13 @@ pub(super) fn place(
                 1 => 0.06 * s.above,
                 _ => 0.0,
             };
-            let p = vec3(x, s.middle + y, s.z);
+            let y = s.middle + y;
+            // Between the gums, or over them.
+            let x = if y < s.margin { x.min(s.gum) } else { x };
+            let p = vec3(x, y, s.z);
             let free = smoothstep(0.34, 0.48, s.along);
             let cover = COVER[2] + free * (COVER[1] - COVER[2]);
-            let p = off_bone(off_bone(p, &bones[1], cover, unit), &bones[0], COVER[0], unit);
+            let p = (0..2).fold(p, |p, _| off_bone(off_bone(p, &bones[0], COVER[0], unit), &bones[1], cover, unit));
             // Sections stay flat, and each on its side.
             out.push(vec3(p.x.clamp(0.0, x), p.y, s.z));
         }
