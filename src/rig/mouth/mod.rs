@@ -106,9 +106,14 @@ impl Mouth {
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
         let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
         let MouthOfHead { half, teeth, upper, lower, tongue } = out;
-        let bodies = [(&self.upper, upper, Layer::Whole), (&self.lower, lower, Layer::Lower)];
-        for ((arch, field), (body, whole, layer)) in arches.iter().zip(&fields).zip(bodies) {
-            let under = |p: Vec3| super::bone::under_skin(p, proportions, (&skin, layer), gums::LEAST_TISSUE);
+        // The lower lip is thin, and bone under it is seen to lie under the whole head only: its gum may stand out a little
+        // of the lower head, or it would lie in the bone.
+        let whole_head = (Layer::Whole, gums::LEAST_TISSUE);
+        let bodies =
+            [(&self.upper, upper, whole_head), (&self.lower, lower, (Layer::Lower, -3.0 * gums::LEAST_TISSUE))];
+        for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&fields).zip(bodies) {
+            let keep = |p: Vec3, layer, least| super::bone::under_skin(p, proportions, (&skin, layer), least);
+            let under = |p: Vec3| keep(keep(p, Layer::Whole, gums::LEAST_TISSUE), layer, least);
             gums::place(arch, unit, field, under, half);
             body.unfold(half, whole);
         }
