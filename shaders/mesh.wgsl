@@ -19,6 +19,7 @@ const MOUTH: u32 = 3u;
 const EYE: u32 = 4u;
 const CAP: u32 = 5u;
 const BONE: u32 = 6u;
+// And all else that is smooth and moist.
 const TOOTH: u32 = 7u;
 
 // Light, linear.

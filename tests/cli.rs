@@ -275,6 +275,12 @@ fn landmarks_are_a_table_for_people_and_an_array_for_programs() {
     }
     let set = done(&["landmarks", "--breed", "labrador", "--level", "2", "--set", "facial_length_mm=60"]).stdout;
     assert_ne!(set, table);
+    let args = ["landmarks", "--breed", "labrador", "--level", "2", "--whiskers", "--json"];
+    let whiskers: serde_json::Value = serde_json::from_str(&done(&args).stdout).unwrap();
+    let whiskers = whiskers.as_array().unwrap();
+    assert!(whiskers.len() > 40 && whiskers.len().is_multiple_of(2));
+    assert!(whiskers.iter().all(|w| w["length_mm"].as_f64().is_some_and(|mm| mm > 5.0)), "{whiskers:?}");
+    assert_eq!(done(&args[..6]).stdout.lines().count(), whiskers.len());
     refused(&["landmarks", "--breed", "labrador", "--size", "10x10"], 2, &["--view"]);
     refused(&["landmarks", "--breed", "labrador", "--view", "behind"], 2, &["is no view"]);
     refused(&["landmarks"], 2, &["--breed"]);

@@ -86,7 +86,14 @@ impl Hand {
             surface: &self.normals,
             flow: &self.normals,
         };
-        Frame { parts: vec![part], control: &[], control_indices: &[], plan: None, revisions: Revisions::default() }
+        Frame {
+            parts: vec![part],
+            control: &[],
+            control_indices: &[],
+            plan: None,
+            whiskers: &[],
+            revisions: Revisions::default(),
+        }
     }
 }
 
@@ -116,10 +123,17 @@ fn material_name(material: Material) -> &'static str {
         Material::Nose => "nose",
         Material::Lip => "lip",
         Material::Mouth => "mouth",
-        Material::Eye => "eye",
+        Material::Sclera => "sclera",
+        Material::Iris => "iris",
+        Material::Pupil => "pupil",
         Material::Cap => "neck_cap",
         Material::Bone => "bone",
         Material::Tooth => "tooth",
+        Material::Gum => "gum",
+        Material::Tongue => "tongue",
+        Material::ThirdEyelid => "third_eyelid",
+        Material::Tears => "tears",
+        Material::Whisker => "whisker",
     }
 }
 
@@ -170,7 +184,7 @@ fn volume(parts: &[&Part<'_>]) -> f64 {
 
 /// Outside is outside, in winding and in normals, and the size is that of a dog's head.
 fn check_geometry(frame: &Frame<'_>) {
-    let (eyes, rest): (Vec<&Part<'_>>, Vec<_>) = frame.parts.iter().partition(|p| p.topology.name.starts_with("eye"));
+    let (eyes, rest): (Vec<&Part<'_>>, Vec<_>) = frame.parts.iter().partition(|p| p.topology.name.starts_with("eye_"));
     assert_eq!(eyes.len(), 2);
     let head = volume(&rest);
     assert!((2e-4..1e-2).contains(&head), "a head of {head} m³");
@@ -273,7 +287,7 @@ fn materials_look_right_alone_and_require_nothing() {
     assert_eq!(used, ["KHR_materials_clearcoat", "KHR_materials_ior", "KHR_materials_sheen"]);
     let materials = json["materials"].as_array().unwrap();
     let names: Vec<&str> = materials.iter().map(|m| m["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["coat", "nose", "eye"]);
+    assert_eq!(names, ["coat", "nose", "sclera"]);
     for material in materials {
         assert_eq!(material["pbrMetallicRoughness"]["metallicFactor"], 0.0);
         assert_eq!(material["pbrMetallicRoughness"]["baseColorFactor"], serde_json::json!([1.0, 1.0, 1.0, 1.0]));
@@ -339,8 +353,14 @@ fn a_range_without_triangles_and_a_frame_without_parts_are_left_out() {
     let (json, _) = chunks(&export(&hand.frame()));
     assert_eq!(json["materials"].as_array().unwrap().len(), 1);
     assert_eq!(json["meshes"][0]["primitives"].as_array().unwrap().len(), 1);
-    let nothing =
-        Frame { parts: vec![], control: &[], control_indices: &[], plan: None, revisions: Revisions::default() };
+    let nothing = Frame {
+        parts: vec![],
+        control: &[],
+        control_indices: &[],
+        plan: None,
+        whiskers: &[],
+        revisions: Revisions::default(),
+    };
     assert!(gltf::import_slice(export(&nothing)).is_ok());
 }
 

@@ -332,11 +332,14 @@ fn a_layer_has_no_switch() {
     let mut harness = harness();
     assert_eq!(harness.state().layers, Layers::default());
     harness.get_by_role_and_label(Role::Slider, "Skin layer").set_value_accesskit(0.25);
-    for layer in ["eyes", "bone", "teeth"] {
+    for layer in ["eyes", "whiskers", "bone", "teeth", "mouth", "tongue"] {
         harness.get_by_role_and_label(Role::CheckBox, layer).click();
     }
     harness.run();
-    assert_eq!(harness.state().layers, Layers { skin: 0.25, eyes: false, bone: true, teeth: true });
+    assert_eq!(
+        harness.state().layers,
+        Layers { skin: 0.25, bone: true, teeth: true, mouth: true, tongue: true, ..Layers::NONE }
+    );
 }
 
 // ---- measurements ----

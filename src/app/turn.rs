@@ -138,7 +138,7 @@ impl Turn {
 }
 
 fn follow(state: &mut EditorState, frame: &Frame<'_>, [width, height]: [u32; 2]) {
-    let points = frame.parts.iter().flat_map(|p| p.positions);
+    let points = frame.body().flat_map(|p| p.positions);
     state.fit_camera(points, width as f32 / height as f32);
     state.n_triangles = frame.n_triangles();
 }

@@ -135,8 +135,9 @@ pub(super) struct Scene {
     /// none, white, black, grey, silver, or rrggbb; without it, a quiet grey
     #[arg(long, value_name = "COLOUR|none", value_parser = values::background)]
     pub background: Option<Background>,
-    /// What is there, with commas between: skin, eyes, bone, teeth; skin=0.3 is seen through
-    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes", value_parser = Layers::parse)]
+    /// What is there, with commas between: skin, eyes, whiskers, bone, teeth, mouth, tongue; skin=0.3 is seen
+    /// through
+    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes,whiskers", value_parser = Layers::parse)]
     pub layers: Layers,
     /// Draw lines over the surfaces: the edges of the control mesh, or with =refined every edge
     #[arg(long, value_name = "control|refined", num_args = 0..=1, require_equals = true, default_missing_value = "control")]
@@ -370,7 +371,8 @@ pub(super) struct Measure {
     Examples:\n  \
     londra landmarks --breed pug\n  \
     londra landmarks --breed labrador --blend pug=0.3 --json\n  \
-    londra landmarks --breed borzoi --view front --size 800x600"
+    londra landmarks --breed borzoi --view front --size 800x600\n  \
+    londra landmarks --breed labrador --whiskers --json"
 )]
 pub(super) struct Landmarks {
     #[command(flatten)]
@@ -387,6 +389,9 @@ pub(super) struct Landmarks {
     /// Focal length in millimetres on 36 x 24, or ortho; without it, 85
     #[arg(long, value_name = "MM|ortho", requires = "view")]
     pub lens: Option<Lens>,
+    /// Tell the whiskers instead: where each leaves the skin, which way, and how long it is
+    #[arg(long, conflicts_with = "view")]
+    pub whiskers: bool,
     #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]

@@ -7,6 +7,7 @@ use crate::frame::Frame;
 use crate::measure::{Eyepoint, Landmark, Sight, bone_landmarks, skin_landmarks};
 use crate::render::Camera;
 use crate::rig::bone::Bones;
+use crate::rig::whiskers::Whisker;
 use serde_json::{Value, json};
 
 /// Prints every landmark: its place, and in a view its pixel and whether it is seen.
@@ -16,6 +17,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     let rig = pipeline.rig().clone();
     let frame = pipeline.update(&breed);
+    if args.whiskers {
+        return whiskers(frame.whiskers, args.report.json);
+    }
     let bones = Bones::embedded().map_err(Failure::work)?;
     let mut landmarks = skin_landmarks(&rig, &breed.values, &frame);
     landmarks.extend(bone_landmarks(&rig, &bones, &breed.values));
@@ -32,6 +36,30 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return output::json(&rows.map(|(landmark, seen)| as_json(landmark, seen.as_ref())).collect());
     }
     output::result(&rows.map(|(landmark, seen)| line(landmark, seen.as_ref())).collect::<Vec<_>>().join("\n"))
+}
+
+/// Prints every whisker: group, row and place in it from 1, side, place of the follicle, direction, length.
+fn whiskers(whiskers: &[Whisker], json: bool) -> Result<(), Failure> {
+    let side = |w: &Whisker| if w.is_left { "L" } else { "R" };
+    if json {
+        let row = |w: &Whisker| {
+            json!({
+                "group": w.group.name(), "row": w.row, "place": w.place, "side": side(w),
+                "position_mm": w.position.to_array().map(|metres| rounded(metres * 1000.0, 1e4)),
+                "direction": w.direction.to_array().map(|part| rounded(part, 1e6)),
+                "length_mm": rounded(w.length * 1000.0, 1e2),
+            })
+        };
+        return output::json(&whiskers.iter().map(row).collect());
+    }
+    let row = |w: &Whisker| {
+        let [x, y, z] = w.position.to_array().map(|metres| rounded(metres * 1000.0, 1e2));
+        let [u, v, n] = w.direction.to_array().map(|part| rounded(part, 1e3));
+        let length = rounded(w.length * 1000.0, 1e1);
+        let name = format!("{:12} {}.{}  {}", w.group.name(), w.row, w.place, side(w));
+        format!("{name}  {x:8.2} {y:8.2} {z:8.2} mm  towards {u:6.3} {v:6.3} {n:6.3}  {length:5.1} mm long")
+    };
+    output::result(&whiskers.iter().map(row).collect::<Vec<_>>().join("\n"))
 }
 
 /// Where a landmark is in the picture.

@@ -46,7 +46,8 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         flow: &nothing,
     };
     let revisions = Revisions::default();
-    let frame = Frame { parts: vec![part], control: &fitted, control_indices: &edges, plan: None, revisions };
+    let frame =
+        Frame { parts: vec![part], control: &fitted, control_indices: &edges, plan: None, whiskers: &[], revisions };
     let [azimuth, elevation] = FROM.map(f32::to_radians);
     let mut camera = Camera::at(View::Angles { azimuth, elevation }, Some(0.0), Lens::default());
     camera.fit(positions.iter(), SIZE[0] as f32 / SIZE[1] as f32, MARGIN);

@@ -14,10 +14,17 @@ pub(super) const fn name(material: Material) -> &'static str {
         Material::Nose => "nose",
         Material::Lip => "lip",
         Material::Mouth => "mouth",
-        Material::Eye => "eye",
+        Material::Sclera => "sclera",
+        Material::Iris => "iris",
+        Material::Pupil => "pupil",
         Material::Cap => "neck_cap",
         Material::Bone => "bone",
         Material::Tooth => "tooth",
+        Material::Gum => "gum",
+        Material::Tongue => "tongue",
+        Material::ThirdEyelid => "third_eyelid",
+        Material::Tears => "tears",
+        Material::Whisker => "whisker",
     }
 }
 
@@ -25,10 +32,11 @@ pub(super) const fn name(material: Material) -> &'static str {
 pub(super) fn material(material: Material, fur: f32) -> json::Material {
     let roughness = match material {
         Material::Coat | Material::Cap => 0.95,
-        Material::Lip | Material::Bone => 0.5,
+        Material::Lip | Material::Bone | Material::Tongue | Material::Whisker => 0.5,
         Material::Nose | Material::Mouth => 0.4,
-        Material::Tooth => 0.25,
-        Material::Eye => 0.1,
+        Material::Gum => 0.35,
+        Material::Tooth | Material::ThirdEyelid => 0.25,
+        Material::Sclera | Material::Iris | Material::Pupil | Material::Tears => 0.1,
     };
     json::Material {
         name: Some(name(material).to_owned()),
@@ -51,11 +59,17 @@ fn extensions(material: Material, fur: f32) -> Option<Map<String, Value>> {
             vec![("KHR_materials_sheen", json!({ color: [sheen, sheen, sheen], roughness: 0.6 }))]
         }
         Material::Nose => vec![("KHR_materials_clearcoat", clearcoat(0.5, 0.25))],
-        // 1.376: refractive index of the cornea (Gullstrand 1909), as glTF viewers use it for eyes.
-        Material::Eye => {
+        // 1.376: refractive index of the cornea (Gullstrand 1909), as glTF viewers use it for eyes; tears have that of water
+        // but for the third digit.
+        Material::Sclera | Material::Iris | Material::Pupil | Material::Tears => {
             vec![("KHR_materials_clearcoat", clearcoat(1.0, 0.02)), ("KHR_materials_ior", json!({ "ior": 1.376 }))]
         }
-        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth => return None,
+        Material::Gum | Material::Tongue | Material::ThirdEyelid => {
+            vec![("KHR_materials_clearcoat", clearcoat(0.5, 0.2))]
+        }
+        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth | Material::Whisker => {
+            return None;
+        }
     };
     Some(entries.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
 }

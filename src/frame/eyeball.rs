@@ -8,7 +8,7 @@ use crate::rig::Eye;
 use glam::{Vec3, vec3};
 
 const SEGMENTS: usize = 72;
-/// Degrees off the optical axis. An iris that fills the fissure: a dog whose white shows looks frightened.
+/// Degrees off the optical axis on an eye whose limbus is at `IRIS`; on others they are stretched to their own limbus.
 const PUPIL: f32 = 25.0;
 const IRIS: f32 = 60.0;
 const RINGS: [f32; 21] = [
@@ -25,9 +25,9 @@ fn shade(ring: usize, segment: usize, iris: Vec3) -> Vec3 {
         return Vec3::splat(0.004);
     }
     if ring > 11 {
-        // Sclera, reddish and darker towards the limbus.
-        let t = ((degrees - IRIS) / 25.0).clamp(0.0, 1.0);
-        return vec3(0.20, 0.14, 0.12).lerp(vec3(0.62, 0.55, 0.50), t);
+        // Sclera, brown towards the limbus.
+        let t = ((degrees - IRIS) / 40.0).clamp(0.0, 1.0);
+        return vec3(0.15, 0.095, 0.075).lerp(vec3(0.55, 0.47, 0.42), t);
     }
     // Fibres: a fixed pattern around the axis; paler in the middle, a dark ring at the limbus.
     let t = (degrees - PUPIL) / (IRIS - PUPIL);
@@ -42,10 +42,17 @@ fn shade(ring: usize, segment: usize, iris: Vec3) -> Vec3 {
 /// Indices; the same for every eye.
 pub(super) fn topology(name: &'static str) -> PartTopology {
     let mut indices = Vec::new();
+    let mut ranges: Vec<MaterialRange> = Vec::new();
     for (i, w) in RINGS.windows(2).enumerate() {
         if w[0] == w[1] {
             continue;
         }
+        let material = match w[0] {
+            ring if ring < PUPIL => Material::Pupil,
+            ring if ring < IRIS => Material::Iris,
+            _ => Material::Sclera,
+        };
+        let start = indices.len() as u32;
         for j in 0..SEGMENTS {
             let at = |i: usize, j: usize| (i * SEGMENTS + j % SEGMENTS) as u32;
             let (a, b, c, d) = (at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
@@ -58,8 +65,12 @@ pub(super) fn topology(name: &'static str) -> PartTopology {
                 continue;
             }
         }
+        let count = indices.len() as u32 - start;
+        match ranges.last_mut().filter(|range| range.material == material) {
+            Some(range) => range.count += count,
+            None => ranges.push(MaterialRange { material, start, count }),
+        }
     }
-    let ranges = vec![MaterialRange { material: Material::Eye, start: 0, count: indices.len() as u32 }];
     PartTopology { name, n_vertices: N_VERTICES, indices, ranges }
 }
 
@@ -70,27 +81,22 @@ pub(super) fn colours(iris: Vec3, out: &mut [Vec3]) {
     }
 }
 
-/// Radius and normal's tilt of the profile: the cornea stands out by a fourteenth of the globe.
-fn profile(degrees: f32) -> f32 {
-    let t = (1.0 - degrees / IRIS).clamp(0.0, 1.0);
-    1.0 + 0.055 * t * t * (3.0 - 2.0 * t)
-}
-
 /// Positions and normals (`positions`, `normals`: [`N_VERTICES`]).
 pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
     let [a, b, g] = eye.axes;
-    let sides: [Vec3; SEGMENTS] = std::array::from_fn(|j| {
-        let turn = core::f32::consts::TAU * j as f32 / SEGMENTS as f32;
-        a * ops::cos(turn) + b * ops::sin(turn)
-    });
-    for (i, &degrees) in RINGS.iter().enumerate() {
-        let angle = degrees.to_radians();
-        let (sin, cos) = (ops::sin(angle), ops::cos(angle));
-        // Slope of the radius over the angle, for the normal of a surface of revolution.
-        let h = 0.5;
-        let slope = (profile(degrees + h) - profile((degrees - h).max(0.0))) / (2.0 * h).to_radians();
-        let r = profile(degrees);
-        for (j, &side) in sides.iter().enumerate() {
+    let limbus = eye.limbus();
+    let half_turn = core::f32::consts::PI;
+    for j in 0..SEGMENTS {
+        let turn = 2.0 * half_turn * j as f32 / SEGMENTS as f32;
+        let (sin_turn, cos_turn) = (ops::sin(turn), ops::cos(turn));
+        let side = a * cos_turn + b * sin_turn;
+        let limbus = Eye::limbus_at(limbus, sin_turn);
+        for (i, &degrees) in RINGS.iter().enumerate() {
+            let t = degrees / IRIS;
+            let beyond = (degrees - IRIS) / (180.0 - IRIS);
+            let angle = if beyond <= 0.0 { t * limbus } else { limbus + beyond * (half_turn - limbus) };
+            let (sin, cos) = (ops::sin(angle), ops::cos(angle));
+            let [r, slope] = Eye::profile(t, limbus);
             let out = side * sin + g * cos;
             let along = side * cos - g * sin;
             positions[i * SEGMENTS + j] = eye.centre + out * (eye.radius * r);

@@ -1,21 +1,27 @@
 //! Which layers of the head a frame has.
 
-/// What is there, and how much of the skin is seen. By default skin and eyes.
+/// What is there, and how much of the skin is seen. By default what is seen of a dog with its mouth closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layers {
     /// Opacity of the skin, 0 to 1; at 0 it is not there.
     pub skin: f32,
-    /// Eyeballs.
+    /// Eyeballs, third eyelids and lines of tears.
     pub eyes: bool,
+    /// Whiskers.
+    pub whiskers: bool,
     /// Skull and mandible.
     pub bone: bool,
     /// Crowns of the teeth.
     pub teeth: bool,
+    /// Gums, palate and floor of the mouth.
+    pub mouth: bool,
+    /// Tongue.
+    pub tongue: bool,
 }
 
 impl Default for Layers {
     fn default() -> Self {
-        Self { skin: 1.0, eyes: true, bone: false, teeth: false }
+        Self { skin: 1.0, eyes: true, whiskers: true, ..Self::NONE }
     }
 }
 
@@ -35,14 +41,18 @@ pub enum LayersError {
 
 impl Layers {
     /// The names that [`Layers::parse`] knows.
-    pub const NAMES: [&'static str; 4] = ["skin", "eyes", "bone", "teeth"];
+    pub const NAMES: [&'static str; 7] = ["skin", "eyes", "whiskers", "bone", "teeth", "mouth", "tongue"];
+
+    /// Nothing.
+    pub const NONE: Layers =
+        Layers { skin: 0.0, eyes: false, whiskers: false, bone: false, teeth: false, mouth: false, tongue: false };
 
     /// From a list with commas between: `bone,teeth,skin=0.3`. What is not named is not there.
     ///
     /// # Errors
     /// An unknown name, or an opacity that is none.
     pub fn parse(text: &str) -> Result<Self, LayersError> {
-        let mut layers = Self { skin: 0.0, eyes: false, bone: false, teeth: false };
+        let mut layers = Self::NONE;
         for word in text.split(',').map(str::trim).filter(|word| !word.is_empty()) {
             let (name, opacity) = word.split_once('=').map_or((word, None), |(name, n)| (name.trim(), Some(n.trim())));
             match (name, opacity) {
@@ -51,10 +61,13 @@ impl Layers {
                     let opacity = n.parse::<f32>().ok().filter(|o| (0.0..=1.0).contains(o));
                     layers.skin = opacity.ok_or_else(|| LayersError::Opacity(word.to_owned()))?;
                 }
-                ("eyes" | "bone" | "teeth", Some(_)) => return Err(LayersError::Solid(word.to_owned())),
+                (name, Some(_)) if Self::NAMES.contains(&name) => return Err(LayersError::Solid(word.to_owned())),
                 ("eyes", None) => layers.eyes = true,
+                ("whiskers", None) => layers.whiskers = true,
                 ("bone", None) => layers.bone = true,
                 ("teeth", None) => layers.teeth = true,
+                ("mouth", None) => layers.mouth = true,
+                ("tongue", None) => layers.tongue = true,
                 _ => return Err(LayersError::Unknown(name.to_owned())),
             }
         }
@@ -69,11 +82,14 @@ mod tests {
     #[test]
     fn a_list_of_layers_is_read_wrong() {
         let xray = Layers::parse("bone, teeth ,skin=0.3").expect("a list");
-        assert_eq!(xray, Layers { skin: 0.3, eyes: false, bone: true, teeth: true });
-        assert_eq!(Layers::parse("skin,eyes"), Ok(Layers::default()));
+        assert_eq!(xray, Layers { skin: 0.3, bone: true, teeth: true, ..Layers::NONE });
+        assert_eq!(Layers::parse("skin,eyes,whiskers"), Ok(Layers::default()));
+        let inside = Layers { bone: true, teeth: true, mouth: true, tongue: true, ..Layers::NONE };
+        assert_eq!(Layers::parse("tongue,mouth,teeth,bone"), Ok(inside));
         assert!(matches!(Layers::parse("skin=2"), Err(LayersError::Opacity(_))));
         assert!(matches!(Layers::parse("skin=NaN"), Err(LayersError::Opacity(_))));
-        assert!(matches!(Layers::parse("bone=0.5"), Err(LayersError::Solid(_))));
+        assert!(matches!(Layers::parse("tongue=0.5"), Err(LayersError::Solid(_))));
+        assert!(Layers::NAMES.iter().all(|name| Layers::parse(name).is_ok_and(|l| l != Layers::NONE)));
         assert!(matches!(Layers::parse("fur"), Err(LayersError::Unknown(_))));
     }
 }

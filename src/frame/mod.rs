@@ -1,12 +1,15 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
 mod eyeball;
+mod eyelids;
 mod layers;
+mod mouth;
 mod parts;
 mod pipeline;
 mod skeleton;
 mod skin;
 mod values;
+mod whiskers;
 
 pub use layers::{Layers, LayersError};
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};

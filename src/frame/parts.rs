@@ -3,6 +3,7 @@
 //! Lifetimes: [`PartTopology`] changes with the level of subdivision only, the value slices of a [`Part`] whenever the
 //! breed or its look does. [`Revisions`] says which, so that a consumer uploads what moved and nothing else.
 
+use crate::rig::whiskers::Whisker;
 use crate::subdiv::Plan;
 use glam::Vec3;
 use std::sync::Arc;
@@ -18,14 +19,28 @@ pub enum Material {
     Lip,
     /// The lining of the mouth.
     Mouth,
-    /// The eyeball: sclera, iris, pupil, cornea.
-    Eye,
+    /// The white of the eye.
+    Sclera,
+    /// The coloured ring, under the cornea.
+    Iris,
+    /// The opening in it.
+    Pupil,
     /// The flat cap that closes the neck.
     Cap,
     /// Skull and mandible.
     Bone,
     /// Crowns of the teeth.
     Tooth,
+    /// Gums, palate and floor of the mouth.
+    Gum,
+    /// Tongue.
+    Tongue,
+    /// The third eyelid.
+    ThirdEyelid,
+    /// The line of tears along the lower lid.
+    Tears,
+    /// Whiskers.
+    Whisker,
 }
 
 /// A run of indices with one material.
@@ -42,7 +57,7 @@ pub struct MaterialRange {
 /// The part of a [`Part`] that stays while only values change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartTopology {
-    /// `skin`, `neck_cap`, `eye_L`, `eye_R`, `skull`, `mandible`, `teeth_upper` or `teeth_lower`; unique in a frame; letters, digits and `_`.
+    /// One of those that [`Frame::parts`] lists; unique in a frame; letters, digits and `_`.
     pub name: &'static str,
     /// Number of vertices: the length of every value slice of the part.
     pub n_vertices: usize,
@@ -83,8 +98,9 @@ pub struct Revisions {
 /// Everything visible of one head at one moment, borrowed from the pipeline that made it.
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
-    /// In the written order, those of the layers that are shown: skin, `neck_cap`, `eye_L`, `eye_R`, `skull`, `mandible`,
-    /// `teeth_upper`, `teeth_lower`.
+    /// In the written order, those of the layers that are shown: `skin`, `neck_cap`; `eye_L`, `eye_R`, `third_eyelid_L`,
+    /// `third_eyelid_R`, `tears_L`, `tears_R`; `whiskers`; `skull`, `mandible`; `teeth_upper`, `teeth_lower`; `gums_upper`
+    /// with the palate, `gums_lower` with the floor of the mouth; `tongue`.
     pub parts: Vec<Part<'a>>,
     /// Control positions of the skin, metres; length: control vertices.
     pub control: &'a [Vec3],
@@ -93,14 +109,24 @@ pub struct Frame<'a> {
     /// The plan that makes the positions and normals of the first part from `control`, for who would evaluate it once
     /// more; none where there is no such plan.
     pub plan: Option<&'a Plan>,
+    /// Whiskers, the left ones, then their mirror images; empty where they are not shown.
+    pub whiskers: &'a [Whisker],
     /// What has changed since the last frame.
     pub revisions: Revisions,
 }
 
-impl Frame<'_> {
-    /// Lowest and highest corner over all parts, metres.
+impl<'a> Frame<'a> {
+    /// Every part but the whiskers, which neither fill a picture nor hide what lies behind them; where there is nothing
+    /// else, those.
+    pub fn body(&self) -> impl Iterator<Item = &Part<'a>> + Clone {
+        let is_whisker = |part: &Part<'_>| part.topology.ranges.iter().all(|r| r.material == Material::Whisker);
+        let all = self.parts.iter().all(is_whisker);
+        self.parts.iter().filter(move |part| all || !is_whisker(part))
+    }
+
+    /// Lowest and highest corner of the [body](Frame::body), metres.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let all = self.parts.iter().flat_map(|p| p.positions.iter());
+        let all = self.body().flat_map(|p| p.positions.iter());
         all.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)))
     }
 

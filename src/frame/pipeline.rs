@@ -1,13 +1,16 @@
 //! The frame's inner loop: a breed in, drawable parts out. Owns every buffer; in the steady state
-//! it allocates nothing but the list of four parts that a frame lends out.
+//! it allocates nothing but the list of parts that a frame lends out.
 //!
 //! Lifetimes: the plan of a level until another is asked for; shape buffers written when the values changed; colours when
 //! the look did.
 
+use super::eyelids::EyelidParts;
 use super::layers::Layers;
+use super::mouth::MouthParts;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
 use super::values::Values;
+use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;
@@ -28,7 +31,7 @@ pub enum PipelineError {
     /// The plan cannot be built.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A baked bone is none.
+    /// A baked bone is none, or a mesh lacks what a part stands on.
     #[error(transparent)]
     Bone(#[from] ControlError),
 }
@@ -45,9 +48,13 @@ pub struct Pipeline {
     control_colours: Vec<Vec3>,
     control_surface: Vec<Vec3>,
     parts: [Values; 4],
+    eyelids: EyelidParts,
+    whiskers: WhiskerParts,
     layers: Layers,
     /// Once bone or teeth are asked for.
     skeleton: Option<Skeleton>,
+    /// Once mouth or tongue are asked for.
+    mouth: Option<MouthParts>,
     values: Vec<f32>,
     look: Option<Look>,
     revisions: Revisions,
@@ -57,7 +64,7 @@ impl Pipeline {
     /// Builds the plan of a level (0 to [`MAX_LEVEL`]).
     ///
     /// # Errors
-    /// A level that is too deep.
+    /// A level that is too deep; a control mesh that lacks what a part stands on.
     pub fn new(rig: Arc<Rig>, level: u32) -> Result<Self, PipelineError> {
         let plan = Self::plan(&rig, level)?;
         let n = rig.mesh().n_vertices();
@@ -71,8 +78,11 @@ impl Pipeline {
             control_colours: vec![Vec3::ZERO; n],
             control_surface: vec![Vec3::ZERO; n],
             parts,
+            eyelids: EyelidParts::new(&rig)?,
+            whiskers: WhiskerParts::new(&rig, &plan)?,
             layers: Layers::default(),
             skeleton: None,
+            mouth: None,
             values: Vec::new(),
             look: None,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
@@ -111,6 +121,7 @@ impl Pipeline {
             return Ok(());
         }
         let plan = Self::plan(&self.rig, level)?;
+        self.whiskers = WhiskerParts::new(&self.rig, &plan)?;
         self.parts = Self::parts(&self.rig, &plan);
         self.evaluator = Evaluator::new(&plan);
         self.evaluator.set_threads(self.threads);
@@ -122,18 +133,23 @@ impl Pipeline {
         Ok(())
     }
 
-    /// Which layers the next frames have. What is there of the skin is evaluated in any case; bone and teeth only when
-    /// they are asked for.
+    /// Which layers the next frames have. What is there of the skin, the eyes and the whiskers is evaluated in any case;
+    /// what lies deeper only when it is asked for.
     ///
     /// # Errors
     /// Where a baked bone is none.
     pub fn set_layers(&mut self, layers: Layers) -> Result<(), PipelineError> {
-        let shown = |l: Layers| (l.skin > 0.0, l.eyes, l.bone, l.teeth);
-        let (had, wants) = (self.layers.bone || self.layers.teeth, layers.bone || layers.teeth);
-        if wants && self.skeleton.is_none() {
+        let shown = |l: Layers| Layers { skin: f32::from(u8::from(l.skin > 0.0)), ..l };
+        let deep = |l: Layers| [l.bone || l.teeth, l.mouth || l.tongue];
+        let [bone, mouth] = deep(layers);
+        if bone && self.skeleton.is_none() {
             self.skeleton = Some(Skeleton::new()?);
         }
-        if wants && !had {
+        if mouth && self.mouth.is_none() {
+            self.mouth = Some(MouthParts::new()?);
+            self.look = None;
+        }
+        if deep(self.layers).iter().zip([bone, mouth]).any(|(had, wants)| wants && !had) {
             self.values.clear();
         }
         if shown(layers) != shown(self.layers) {
@@ -188,16 +204,21 @@ impl Pipeline {
             control: &self.deformed.control,
             control_indices: self.rig.mesh().indices(),
             plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
+            whiskers: if self.layers.whiskers { &self.whiskers.whiskers } else { &[] },
             revisions: self.revisions,
         }
     }
 
     /// The parts of the layers, in the written order.
     fn shown(&self) -> impl Iterator<Item = &Values> {
-        let Layers { skin, eyes, bone, teeth } = self.layers;
+        let Layers { skin, eyes, whiskers, bone, teeth, mouth, tongue } = self.layers;
         let own = [skin > 0.0, skin > 0.0, eyes, eyes];
-        let deep = self.skeleton.iter().flat_map(move |s| s.parts(bone, teeth));
-        self.parts.iter().zip(own).filter(|(_, shown)| *shown).map(|(part, _)| part).chain(deep)
+        let own = self.parts.iter().zip(own).filter(|(_, shown)| *shown).map(|(part, _)| part);
+        let lids = self.eyelids.parts().filter(move |_| eyes);
+        let whiskers = Some(&self.whiskers.values).filter(|_| whiskers);
+        let bones = self.skeleton.iter().flat_map(move |s| s.parts(bone, teeth));
+        let mouth = self.mouth.iter().flat_map(move |m| m.parts(mouth, tongue));
+        own.chain(lids).chain(whiskers).chain(bones).chain(mouth)
     }
 
     fn shape(&mut self, values: &[f32]) {
@@ -211,9 +232,15 @@ impl Pipeline {
         for (eye, part) in self.deformed.eyes.iter().zip([left, right]) {
             eyeball::place(eye, &mut part.positions, &mut part.normals);
         }
-        let wants_skeleton = self.layers.bone || self.layers.teeth;
-        if let Some(skeleton) = self.skeleton.as_mut().filter(|_| wants_skeleton) {
-            skeleton.shape(&self.rig.measures(values), &self.rig.proportions(values));
+        let (measures, proportions) = (self.rig.measures(values), self.rig.proportions(values));
+        self.eyelids.shape(&proportions, &self.deformed.eyes[0], &skin.positions);
+        self.whiskers.shape(skin, proportions.scale);
+        let Layers { bone, teeth, mouth, tongue, .. } = self.layers;
+        if let Some(skeleton) = self.skeleton.as_mut().filter(|_| bone || teeth) {
+            skeleton.shape(&measures, &proportions);
+        }
+        if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
+            inside.shape(&measures, &proportions);
         }
     }
 
@@ -226,6 +253,11 @@ impl Pipeline {
         for eye in [left, right] {
             eyeball::colours(look.iris, &mut eye.colours);
             eye.surface.fill(Vec3::new(0.0, 1.0, 0.0));
+        }
+        self.eyelids.paint(look);
+        self.whiskers.paint(look);
+        if let Some(inside) = &mut self.mouth {
+            inside.paint(look);
         }
     }
 

@@ -21,10 +21,10 @@ pub enum Eyepoint {
 }
 
 impl Sight {
-    /// Of all parts of a frame.
+    /// Of all parts of a frame but the whiskers.
     pub fn new(frame: &Frame<'_>) -> Self {
         let mut triangles = Vec::with_capacity(frame.n_triangles());
-        for part in &frame.parts {
+        for part in frame.body() {
             let corner = |v: u32| part.positions[v as usize].as_dvec3();
             triangles.extend(part.topology.indices.chunks_exact(3).map(|t| [corner(t[0]), corner(t[1]), corner(t[2])]));
         }

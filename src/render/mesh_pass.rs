@@ -6,16 +6,8 @@ use super::targets::{COLOUR, DEPTH, SAMPLES};
 use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
-const MATERIALS: [Material; 8] = [
-    Material::Coat,
-    Material::Nose,
-    Material::Lip,
-    Material::Mouth,
-    Material::Eye,
-    Material::Cap,
-    Material::Bone,
-    Material::Tooth,
-];
+/// Ways of shading, one pipeline each: the numbers of `mesh.wgsl`.
+const KINDS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 /// How much work a pixel is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,29 +19,35 @@ pub enum Quality {
     Draft,
 }
 
-/// The number `mesh.wgsl` knows a material by.
-fn code(material: Material) -> u32 {
+/// The way of shading of a material, of [`KINDS`].
+fn kind(material: Material) -> u32 {
     match material {
         Material::Coat => 0,
         Material::Nose => 1,
         Material::Lip => 2,
         Material::Mouth => 3,
-        Material::Eye => 4,
+        Material::Sclera | Material::Iris | Material::Pupil => 4,
         Material::Cap => 5,
         Material::Bone => 6,
-        Material::Tooth => 7,
+        Material::Tooth
+        | Material::Gum
+        | Material::Tongue
+        | Material::ThirdEyelid
+        | Material::Tears
+        | Material::Whisker => 7,
     }
 }
 
 /// Whether it is seen through where the skin is.
 pub(super) fn is_skin(material: Material) -> bool {
-    !matches!(material, Material::Eye | Material::Bone | Material::Tooth)
+    use Material::{Cap, Coat, Lip, Mouth, Nose};
+    matches!(material, Coat | Nose | Lip | Mouth | Cap)
 }
 
-/// A pipeline for each material, solid and seen through, and bindings that do not change with the head.
+/// A pipeline for each way of shading, solid and seen through, and bindings that do not change with the head.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    pipelines: [[wgpu::RenderPipeline; MATERIALS.len()]; 2],
+    pipelines: [[wgpu::RenderPipeline; KINDS.len()]; 2],
     bindings: wgpu::BindGroup,
 }
 
@@ -70,8 +68,7 @@ impl MeshPass {
         });
         let module = sources.compile(device, ShaderFile::Mesh)?;
         let pipelines = build_checked(device, ShaderFile::Mesh, || {
-            [false, true]
-                .map(|clear| MATERIALS.map(|material| pipeline(device, &module, &layout, material, quality, clear)))
+            [false, true].map(|clear| KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, clear)))
         })?;
         Ok(Self { pipelines, bindings: bindings(device, queue, &own, shadow) })
     }
@@ -86,7 +83,7 @@ impl MeshPass {
         pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
         for clear in [false, true] {
             for run in head.runs.iter().filter(|run| (clear_skin && is_skin(run.material)) == clear) {
-                pass.set_pipeline(&self.pipelines[usize::from(clear)][code(run.material) as usize]);
+                pass.set_pipeline(&self.pipelines[usize::from(clear)][kind(run.material) as usize]);
                 pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
             }
         }
@@ -97,13 +94,13 @@ fn pipeline(
     device: &wgpu::Device,
     module: &wgpu::ShaderModule,
     layout: &wgpu::PipelineLayout,
-    material: Material,
+    kind: u32,
     quality: Quality,
     clear: bool,
 ) -> wgpu::RenderPipeline {
     let draft = f64::from(u8::from(quality == Quality::Draft));
     let seen_through = f64::from(u8::from(clear));
-    let constants = [("kind", f64::from(code(material))), ("draft", draft), ("seen_through", seen_through)];
+    let constants = [("kind", f64::from(kind)), ("draft", draft), ("seen_through", seen_through)];
     let attributes: [[wgpu::VertexAttribute; 1]; 5] = [
         wgpu::vertex_attr_array![0 => Float32x3],
         wgpu::vertex_attr_array![1 => Float32x3],

@@ -2,7 +2,7 @@
 //!
 //! Ids K01 to K58 are those of the canonical list of skin landmarks. A place is a control vertex, or the middle of a
 //! control face, which is a vertex of the refined skin from level 1 on. Not on this skin: K33 and K34 belong to the
-//! eyeball, K52 to a tongue, and K50 and K51 are the fold and, as K49, the tip of an ear that hangs.
+//! eyeball, K52 to the tongue, and K50 and K51 are the fold and, as K49, the tip of an ear that hangs.
 
 use super::control::HalfMesh;
 

@@ -1,6 +1,8 @@
 //! From one half of a mesh to the whole: the half, in its order, followed by the mirror images of its vertices off the
 //! median plane.
 
+use glam::Vec3;
+
 /// For each half vertex, its number on the other side in the whole mesh; itself in the median plane (`midline`: one for
 /// each half vertex).
 pub(super) fn images(midline: &[bool]) -> Vec<u32> {
@@ -22,6 +24,14 @@ pub(super) fn triangles(midline: &[bool], half: &[[u16; 3]]) -> Vec<[u32; 3]> {
     let left = half.iter().map(|f| f.map(u32::from));
     let right = half.iter().map(|&[a, b, c]| [a, c, b].map(|v| images[v as usize]));
     left.chain(right).collect()
+}
+
+/// Writes the whole mesh's positions (`whole`: emptied first) from the half's.
+pub(super) fn unfold(midline: &[bool], half: &[Vec3], whole: &mut Vec<Vec3>) {
+    whole.clear();
+    whole.extend_from_slice(half);
+    let off = half.iter().zip(midline).filter(|(_, middle)| !**middle);
+    whole.extend(off.map(|(p, _)| Vec3::new(-p.x, p.y, p.z)));
 }
 
 /// Number of vertices of the whole mesh.

@@ -5,16 +5,21 @@
 pub mod bone;
 mod control;
 pub mod deform;
+mod eye;
+pub mod eyelids;
 mod flow;
 pub mod handles;
 pub mod implicit;
 mod landmarks;
 mod lanes;
 mod mirror;
+pub mod mouth;
 mod primitives;
 mod proportions;
+pub mod whiskers;
 
 pub use control::{ControlError, HalfMesh, HalfRings};
+pub use eye::Eye;
 pub use handles::Handles;
 pub use landmarks::{Place, SkinLandmark};
 pub use proportions::{EarProportions, Measures, Proportions};
@@ -65,17 +70,6 @@ pub struct Deformed {
     pub control: Vec<Vec3>,
     /// The left eye and the right.
     pub eyes: [Eye; 2],
-}
-
-/// An eyeball's place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Eye {
-    /// Centre, metres.
-    pub centre: Vec3,
-    /// Radius, metres.
-    pub radius: f32,
-    /// Unit axes: to the dog's left (in the eye's own frame), up, and the direction of gaze.
-    pub axes: [Vec3; 3],
 }
 
 impl Rig {
@@ -163,12 +157,6 @@ impl Rig {
         self.half.unfold(&out.half, &mut out.control);
         let axes = deform::eye_axes(&shape).map(|a| shape.direction(a));
         let left = Eye { centre: shape.metres(shape.eye()), radius: shape.eye_r * shape.scale, axes };
-        let flip = |v: Vec3| Vec3::new(-v.x, v.y, v.z);
-        let right = Eye {
-            centre: flip(left.centre),
-            radius: left.radius,
-            axes: [-flip(axes[0]), flip(axes[1]), flip(axes[2])],
-        };
-        out.eyes = [left, right];
+        out.eyes = [left, left.mirrored()];
     }
 }

@@ -90,6 +90,7 @@ impl StandIn {
             control: &self.control,
             control_indices: &self.control_indices,
             plan: None,
+            whiskers: &[],
             revisions: self.revisions,
         }
     }
@@ -177,7 +178,7 @@ fn eye(name: &'static str, side: f32) -> OwnedPart {
         })
         .collect();
     let n_vertices = points.len();
-    let ranges = vec![MaterialRange { material: Material::Eye, start: 0, count: indices.len() as u32 }];
+    let ranges = vec![MaterialRange { material: Material::Sclera, start: 0, count: indices.len() as u32 }];
     OwnedPart {
         topology: Arc::new(PartTopology { name, n_vertices, indices, ranges }),
         positions: normals.iter().map(|n| centre + *n * 0.0115).collect(),

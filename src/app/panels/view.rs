@@ -44,9 +44,12 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         let label = ui.label("Skin layer");
         let slider = egui::Slider::new(&mut layers.skin, 0.0..=1.0).fixed_decimals(2);
         ui.add(slider).labelled_by(label.id).on_hover_text("How much of the skin is seen; 0 hides it");
-        ui.checkbox(&mut layers.eyes, "eyes").on_hover_text("Eyeballs");
+        ui.checkbox(&mut layers.eyes, "eyes").on_hover_text("Eyeballs, third eyelids, tears");
+        ui.checkbox(&mut layers.whiskers, "whiskers").on_hover_text("Whiskers");
         ui.checkbox(&mut layers.bone, "bone").on_hover_text("Skull and mandible");
         ui.checkbox(&mut layers.teeth, "teeth").on_hover_text("Crowns of the teeth");
+        ui.checkbox(&mut layers.mouth, "mouth").on_hover_text("Gums, palate, floor of the mouth");
+        ui.checkbox(&mut layers.tongue, "tongue").on_hover_text("Tongue");
         ui.separator();
         let taken = ui.selectable_label(state.measures.is_open, "Measurements");
         if taken.on_hover_text("What a vet would measure on this head (M)").clicked() {

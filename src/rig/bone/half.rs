@@ -33,9 +33,6 @@ impl BoneHalf {
 
     /// Writes the whole mesh's positions from the half's.
     pub fn unfold(&self, half: &[Vec3], whole: &mut Vec<Vec3>) {
-        whole.clear();
-        whole.extend_from_slice(half);
-        let off = half.iter().zip(&self.midline).filter(|(_, middle)| !**middle);
-        whole.extend(off.map(|(p, _)| Vec3::new(-p.x, p.y, p.z)));
+        mirror::unfold(&self.midline, half, whole);
     }
 }

@@ -123,11 +123,10 @@ impl Bones {
     pub fn landmarks_alone(&self, measures: &Measures, proportions: &Proportions) -> Vec<(&'static str, Vec3)> {
         let targets = targets(measures, proportions);
         let list = targets.list();
-        let skin = Implicit::new(proportions);
         let on = |bone: &Bone, id: &str| {
             let (_, vertex) = bone.half.landmarks.iter().find(|(known, _)| known == id)?;
             let vertex = usize::from(*vertex);
-            let p = under_skin(bone.warp.at(vertex, &list)?, proportions, &skin);
+            let p = bone.warp.at(vertex, &list)?;
             Some(if bone.half.midline.get(vertex) == Some(&true) { p.with_x(0.0) } else { p })
         };
         let place = |k: usize, id| on(&self.skull, id).or_else(|| on(&self.mandible, id)).unwrap_or(list[k]);

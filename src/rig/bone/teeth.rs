@@ -102,12 +102,33 @@ fn crown(kind: ToothKind, u: f32, v: f32) -> f32 {
     }
 }
 
-/// The teeth of one jaw of one head: left ones, then their mirror images; `out` gets [`TOOTH_VERTICES`] for each.
-pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
-    out.clear();
-    // Crowns follow the length of the skull.
-    let unit = t.prosthion.distance(t.akrokranion) / 200.0;
-    let (teeth, arch): (&[Tooth], [Vec3; 5]) = if upper {
+/// Where a tooth of the left half stands. Metres, head's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seat {
+    /// Which tooth it is.
+    pub tooth: &'static Tooth,
+    /// Middle of the neck, [`SUNK`] below the bone's rim.
+    pub root: Vec3,
+    /// Unit axes: along the crown, forwards; across it, outwards; towards its tip.
+    pub axes: [Vec3; 3],
+    /// The crown as it is on this head: along, across, height.
+    pub size: Vec3,
+    /// From the middle of the neck outwards to the landmarks of the bone.
+    pub inset: f32,
+}
+
+/// How far a neck is sunk into the bone's rim, canonical millimetres.
+pub const SUNK: f32 = 2.2;
+
+/// A canonical millimetre on a head with these landmarks: crowns follow the length of the skull.
+pub fn unit(t: &Targets<Vec3>) -> f32 {
+    t.prosthion.distance(t.akrokranion) / 200.0
+}
+
+/// The seats of one jaw's left teeth, from the middle backwards.
+pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
+    let unit = unit(t);
+    let (teeth, arch): (&'static [Tooth], [Vec3; 5]) = if upper {
         (&UPPER, [t.prosthion, t.incisor, t.canine, t.maxilla, t.upper_last])
     } else {
         let side = t.infradentale.lerp(t.lower_canine, 0.6);
@@ -121,7 +142,7 @@ pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
     let canine = 3;
     let carnassial = teeth.iter().position(|t| t.kind == Carnassial).unwrap_or(canine);
     let n = teeth.len();
-    for (i, tooth) in teeth.iter().enumerate() {
+    let seat = |(i, tooth): (usize, &'static Tooth)| {
         let size = tooth.size * unit;
         // Sum of the crowns from one tooth's middle to another's, in front of this one.
         let run = |from: usize, to: usize| -> f32 {
@@ -166,8 +187,16 @@ pub(super) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
             Canine => -across * (0.85 * size.y),
             _ => -across * (0.55 * size.y + 2.0 * unit),
         };
-        let root = at + inwards - up * (2.2 * unit);
-        let axes = [along, across, up];
+        let root = at + inwards - up * (SUNK * unit);
+        Seat { tooth, root, axes: [along, across, up], size, inset: inwards.length() }
+    };
+    teeth.iter().enumerate().map(seat).collect()
+}
+
+/// The teeth of one jaw of one head: left ones, then their mirror images; `out` gets [`TOOTH_VERTICES`] for each.
+pub(in crate::rig) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
+    out.clear();
+    for Seat { tooth, root, axes, size, .. } in seats(t, upper) {
         for (ring, &r) in RINGS.iter().enumerate() {
             for s in 0..SEGMENTS {
                 let angle = core::f32::consts::TAU * s as f32 / SEGMENTS as f32;

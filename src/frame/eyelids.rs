@@ -1,0 +1,89 @@
+//! Third eyelids and lines of tears as drawable parts.
+
+use super::PipelineError;
+use super::parts::{Material, MaterialRange, PartTopology};
+use super::values::Values;
+use crate::anatomy::Look;
+use crate::mesh::DedgeMesh;
+use crate::rig::eyelids::{self, tear_line_mesh, third_eyelid_mesh};
+use crate::rig::{ControlError, Eye, Proportions, Rig};
+use crate::subdiv::{Evaluator, Plan, Scheme};
+use glam::{Vec3, vec3};
+
+/// Steps of Loop's scheme.
+const STEPS: u32 = 1;
+
+/// One of the left eye, and its mirror image.
+struct Pair {
+    plan: Plan,
+    sides: [Values; 2],
+}
+
+/// Their plans and what they draw.
+pub(super) struct EyelidParts {
+    evaluator: Evaluator,
+    /// The lower lid's inner margin from the lateral corner to the medial one: vertices of the skin at every level.
+    margin: [usize; 7],
+    control: Vec<Vec3>,
+    third: Pair,
+    tears: Pair,
+}
+
+impl EyelidParts {
+    pub(super) fn new(rig: &Rig) -> Result<Self, PipelineError> {
+        let third = third_eyelid_mesh().map_err(ControlError::Mesh)?;
+        let tears = tear_line_mesh().map_err(ControlError::Mesh)?;
+        let third = Pair::new(&third, ["third_eyelid_L", "third_eyelid_R"], Material::ThirdEyelid)?;
+        let tears = Pair::new(&tears, ["tears_L", "tears_R"], Material::Tears)?;
+        let inner = rig.plan().handles().ei;
+        let margin = std::array::from_fn(|k| usize::from(inner[(6 + k) % 12]));
+        Ok(Self { evaluator: Evaluator::new(&third.plan), margin, control: Vec::new(), third, tears })
+    }
+
+    /// `eye`: the left one; `skin`: positions of the refined skin.
+    pub(super) fn shape(&mut self, proportions: &Proportions, eye: &Eye, skin: &[Vec3]) {
+        let Self { evaluator, margin, control, third, tears } = self;
+        eyelids::third_eyelid(proportions, eye, control);
+        third.shape(evaluator, control);
+        eyelids::tear_line(eye, &margin.map(|v| skin[v]), control);
+        tears.shape(evaluator, control);
+    }
+
+    pub(super) fn paint(&mut self, look: &Look) {
+        // The membrane shares the lids' pigment: pink where they are pale.
+        let membrane = (look.mouth * 0.8).lerp(look.lips, 0.68);
+        let wet = look.lips.lerp(look.mouth, 0.35) * 0.8;
+        for (pair, colour, gloss) in [(&mut self.third, membrane, 0.8), (&mut self.tears, wet, 1.0)] {
+            for values in &mut pair.sides {
+                values.colours.fill(colour);
+                values.surface.fill(vec3(0.0, gloss, 0.2));
+            }
+        }
+    }
+
+    pub(super) fn parts(&self) -> impl Iterator<Item = &Values> {
+        self.third.sides.iter().chain(&self.tears.sides)
+    }
+}
+
+impl Pair {
+    fn new(left: &DedgeMesh, names: [&'static str; 2], material: Material) -> Result<Self, PipelineError> {
+        let plan = Plan::build(left, Scheme::Loop, STEPS)?;
+        let mut mirrored = plan.indices().to_vec();
+        mirrored.as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
+        let values = |name: &'static str, indices: Vec<u32>| {
+            let ranges = vec![MaterialRange { material, start: 0, count: indices.len() as u32 }];
+            Values::new(PartTopology { name, n_vertices: plan.n_vertices(), indices, ranges })
+        };
+        let sides = [values(names[0], plan.indices().to_vec()), values(names[1], mirrored)];
+        Ok(Self { plan, sides })
+    }
+
+    fn shape(&mut self, evaluator: &mut Evaluator, control: &[Vec3]) {
+        let [left, right] = &mut self.sides;
+        evaluator.evaluate_into(&self.plan, control, &mut left.positions, &mut left.normals);
+        for (from, to) in [(&left.positions, &mut right.positions), (&left.normals, &mut right.normals)] {
+            from.iter().zip(to).for_each(|(l, r)| *r = vec3(-l.x, l.y, l.z));
+        }
+    }
+}
