@@ -27,6 +27,29 @@ pub struct PatchFile {
     pub loops: BTreeMap<String, Vec<String>>,
     /// Named points: landmark id, name, vertex.
     pub landmarks: Vec<(String, String, String)>,
+    /// Charts of the texture's layout: a face belongs to the last that has all its corners.
+    pub charts: Vec<ChartPatch>,
+}
+
+/// A chart of the texture's layout.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChartPatch {
+    /// Its name.
+    pub name: String,
+    /// Chains of its vertices; none at all are all vertices.
+    #[serde(default)]
+    pub vertices: Vec<String>,
+    /// Chains in the median plane where it joins its mirror image.
+    #[serde(default)]
+    pub join: Vec<String>,
+    /// Length in the layout against length on the skin, beside the other charts.
+    #[serde(default = "even")]
+    pub density: f64,
+}
+
+fn even() -> f64 {
+    1.0
 }
 
 /// One step of a patch file.
@@ -313,6 +336,21 @@ impl Builder {
         }
         Ok(())
     }
+}
+
+/// The vertices that chains name.
+///
+/// # Errors
+/// A name that is none, or that the mesh has not.
+pub fn vertices(half: &HalfMesh, chains: &[String]) -> Result<Vec<u16>, PatchError> {
+    let mut out = Vec::new();
+    for chain in chains {
+        for tag in expand(chain)? {
+            let found = half.tags.iter().position(|t| *t == tag).ok_or(PatchError::UnknownVertex(tag))?;
+            out.push(found as u16);
+        }
+    }
+    Ok(out)
 }
 
 /// Runs a patch file; the base positions of the result are zero.

@@ -44,6 +44,9 @@ pub enum ControlError {
     /// A vertex that the shape needs is not there.
     #[error("assets/head.ron: the shape needs a vertex `{0}`")]
     Missing(String),
+    /// The charts of the skin do not fit the mesh.
+    #[error("assets/head_uv.ron: `{0}` of a chart do not fit assets/head.ron: run `londra bake`")]
+    Uv(&'static str),
     /// The mirrored mesh is no manifold.
     #[error("a baked asset: {0}")]
     Mesh(#[from] MeshError),

@@ -13,11 +13,13 @@ mod lanes;
 mod mirror;
 mod primitives;
 mod proportions;
+mod uv;
 
 pub use control::{ControlError, HalfMesh, HalfRings};
 pub use handles::Handles;
 pub use landmarks::{Place, SkinLandmark};
 pub use proportions::{EarProportions, Measures, Proportions};
+pub use uv::{Chart, HEAD_UV, HalfUv};
 
 use crate::anatomy::{Breed, ParamTable};
 use crate::mesh::DedgeMesh;
