@@ -85,6 +85,7 @@ impl Hand {
             colours: &self.colours,
             surface: &self.normals,
             flow: &self.normals,
+            uv: None,
         };
         Frame { parts: vec![part], control: &[], control_indices: &[], plan: None, revisions: Revisions::default() }
     }

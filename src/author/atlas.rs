@@ -8,6 +8,7 @@ use super::packing::{self, Island};
 use super::patch::{self, ChartPatch};
 use super::unwrap::{self, Piece};
 use crate::anatomy::{ParamTable, library};
+use crate::mesh::VertexId;
 use crate::rig::{Chart, Deformed, HalfMesh, HalfUv, Rig, deform};
 use crate::subdiv::{Evaluator, Normals, Plan, PlanOptions, Positions, Scheme, Tags};
 use std::collections::BTreeSet;
@@ -17,9 +18,7 @@ const GRID: f64 = (1u32 << 20) as f64;
 
 /// Lays the charts of a half out in the unit square.
 pub(super) fn lay_out(charts: &[ChartPatch], half: &HalfMesh, table: &ParamTable) -> Result<HalfUv, BakeError> {
-    let t = std::time::Instant::now();
     let sides = mean_sides(half, table)?;
-    eprintln!("sides {:?}", t.elapsed());
     let of_face = charts_of_faces(charts, half)?;
     let mut islands = Vec::new();
     let mut out = Vec::new();
@@ -40,13 +39,10 @@ pub(super) fn lay_out(charts: &[ChartPatch], half: &HalfMesh, table: &ParamTable
         islands.push(Island { faces: piece.faces, at, is_joined: !joined.is_empty() });
         out.push(Chart { name: chart.name.clone(), faces, vertices, uvs: Vec::new() });
     }
-    eprintln!("flat {:?}", t.elapsed());
     let placed = packing::pack(&islands).ok_or(BakeError::Packing)?;
-    eprintln!("packed {:?}", t.elapsed());
-    for ((chart, places), island) in out.iter_mut().zip(placed).zip(&islands) {
+    for (chart, places) in out.iter_mut().zip(placed) {
         let round = |x: f64| ((x * GRID).round() / GRID) as f32;
         chart.uvs = places.iter().map(|&[u, v]| [round(u), round(v)]).collect();
-        debug_assert_eq!(chart.uvs.len(), island.at.len());
     }
     Ok(HalfUv { version: 1, charts: out })
 }
@@ -69,7 +65,9 @@ fn charts_of_faces(charts: &[ChartPatch], half: &HalfMesh) -> Result<Vec<usize>,
 fn mean_sides(half: &HalfMesh, table: &ParamTable) -> Result<Vec<[f64; 3]>, BakeError> {
     let rig = Rig::new(half.clone(), table)?;
     let options = PlanOptions { positions: Positions::Limit, normals: Normals::None, ..PlanOptions::new(Scheme::Sqrt3, 0) };
-    let plan = Plan::build_with(rig.mesh(), &Tags::default(), &options)?;
+    let creases = rig.creases().map(|(a, b, sharpness)| (VertexId(a), VertexId(b), sharpness)).collect();
+    let tags = Tags { creases, ..Tags::default() };
+    let plan = Plan::build_with(rig.mesh(), &tags, &options)?;
     let mut evaluator = Evaluator::new(&plan);
     let mut deformed = Deformed::default();
     let mut sums = vec![[0.0; 3]; half.faces.len()];

@@ -140,6 +140,7 @@ fn text(half: &HalfMesh) -> String {
     list("regions", half.regions.iter().map(|r| r.name().to_owned()).collect(), 10);
     list("faces", half.faces.iter().map(|f| format!("({})", numbers(f))).collect(), 8);
     list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 4);
+    list("creases", half.creases.iter().map(|(a, b, s)| format!("({a}, {b}, {s:?})")).collect(), 8);
     list("landmarks", half.landmarks.iter().map(|(id, name, v)| format!("({id:?}, {name:?}, {v})")).collect(), 1);
     let _ = writeln!(out, "    loops: {{");
     for (name, l) in &half.loops {

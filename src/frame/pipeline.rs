@@ -8,11 +8,12 @@ use super::layers::Layers;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
 use super::values::Values;
+use super::uv::Uv;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Rig, deform};
-use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
+use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -28,9 +29,12 @@ pub enum PipelineError {
     /// The plan cannot be built.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A baked bone is none.
+    /// A baked asset is none.
     #[error(transparent)]
-    Bone(#[from] ControlError),
+    Baked(#[from] ControlError),
+    /// The charts of the skin do not fit its plan.
+    #[error(transparent)]
+    Uv(#[from] FaceVaryingError),
 }
 
 /// From breeds to frames.
@@ -46,6 +50,8 @@ pub struct Pipeline {
     control_surface: Vec<Vec3>,
     parts: [Values; 4],
     layers: Layers,
+    /// Whether parts have texture coordinates.
+    uv: bool,
     /// Once bone or teeth are asked for.
     skeleton: Option<Skeleton>,
     values: Vec<f32>,
@@ -72,6 +78,7 @@ impl Pipeline {
             control_surface: vec![Vec3::ZERO; n],
             parts,
             layers: Layers::default(),
+            uv: false,
             skeleton: None,
             values: Vec::new(),
             look: None,
@@ -85,7 +92,7 @@ impl Pipeline {
         if level > MAX_LEVEL {
             return Err(PipelineError::Level(level));
         }
-        Ok(Plan::build(rig.mesh(), Scheme::Sqrt3, level)?)
+        Ok(Plan::build_with(rig.mesh(), &skin::tags(rig), &PlanOptions::new(Scheme::Sqrt3, level))?)
     }
 
     fn parts(rig: &Rig, plan: &Plan) -> [Values; 4] {
@@ -119,6 +126,23 @@ impl Pipeline {
         self.revisions.topology += 1;
         self.values.clear();
         self.look = None;
+        let wants_uv = std::mem::take(&mut self.uv);
+        self.set_uv(wants_uv)
+    }
+
+    /// Whether the next frames have texture coordinates. They cost nothing a frame, but something at each change of the
+    /// level.
+    ///
+    /// # Errors
+    /// Where the baked charts do not fit the mesh.
+    pub fn set_uv(&mut self, wanted: bool) -> Result<(), PipelineError> {
+        if wanted != self.uv {
+            let [skin, _, left, right] = &mut self.parts;
+            skin.uv = wanted.then(|| Uv::of_skin(&self.rig, &self.plan)).transpose()?;
+            left.uv = wanted.then(|| eyeball::uv(&left.topology));
+            right.uv = wanted.then(|| eyeball::uv(&right.topology));
+            self.uv = wanted;
+        }
         Ok(())
     }
 

@@ -126,6 +126,17 @@ impl Rig {
         inner.flat_map(move |(v, pigment)| [(v as usize, pigment), (mirror[v as usize] as usize, pigment)])
     }
 
+    /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
+    pub fn creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
+        let mirror = self.half.mirror();
+        self.half.creases.iter().flat_map(move |&(a, b, sharpness)| {
+            let image = (mirror[a as usize], mirror[b as usize]);
+            let own = (u32::from(a), u32::from(b));
+            // An edge in the median plane is its own image.
+            [Some(own), Some(image).filter(|&image| image != own)].into_iter().flatten().map(move |(a, b)| (a, b, sharpness))
+        })
+    }
+
     /// Connectivity of the whole control mesh.
     pub fn mesh(&self) -> &DedgeMesh {
         &self.mesh
