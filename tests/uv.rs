@@ -83,7 +83,9 @@ fn a_triangle_of_the_texture_is_flipped_or_lies_over_another() {
     let control: Vec<[Vec2; 3]> =
         corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|v| values[v as usize])).collect();
     let refined = |level| with_skin(&world, level, "labrador", |_, uv| triangles_of(uv));
-    for (what, triangles) in [("control mesh", control), ("level 1", refined(1)), ("level 2", refined(2)), ("level 3", refined(3))] {
+    for (what, triangles) in
+        [("control mesh", control), ("level 1", refined(1)), ("level 2", refined(2)), ("level 3", refined(3))]
+    {
         let flipped = triangles.iter().filter(|t| turn(t.map(whole)) <= 0).count();
         assert_eq!(flipped, 0, "{what}: flipped of {}", triangles.len());
         let overlaps = overlaps(&triangles);
@@ -100,7 +102,8 @@ fn the_texture_is_not_its_own_mirror_image() {
     let n = world.rig.half().faces.len();
     for f in 0..n {
         for k in 0..3 {
-            let (left, right) = (values[corners[3 * f + k] as usize], values[corners[3 * (n + f) + (3 - k) % 3] as usize]);
+            let (left, right) =
+                (values[corners[3 * f + k] as usize], values[corners[3 * (n + f) + (3 - k) % 3] as usize]);
             assert_eq!((left.x + right.x, left.y.to_bits()), (1.0, right.y.to_bits()), "face {f}");
             assert!(left.x >= 0.5 && right.x <= 0.5, "face {f} lies in the other side's half");
         }
@@ -290,7 +293,8 @@ fn what_is_drawn_with_seams_is_another_surface() {
             };
             let size = |[p, q, r]: [glam::DVec3; 3]| ((q - p).cross(r - p).length() / 2.0, p.dot(q.cross(r)) / 6.0);
             let own = skin.topology.indices.chunks_exact(3);
-            let sum = |sizes: &mut dyn Iterator<Item = (f64, f64)>| sizes.fold((0.0, 0.0), |s, x| (s.0 + x.0, s.1 + x.1));
+            let sum =
+                |sizes: &mut dyn Iterator<Item = (f64, f64)>| sizes.fold((0.0, 0.0), |s, x| (s.0 + x.0, s.1 + x.1));
             let plain = sum(&mut own.map(|t| size([t[0], t[1], t[2]].map(|v| skin.positions[v as usize].as_dvec3()))));
             let drawn = sum(&mut uv.indices.chunks_exact(3).map(|t| size([t[0], t[1], t[2]].map(at))));
             assert!((plain.0 - drawn.0).abs() < 1e-9 * plain.0, "level {level}: area {plain:?} {drawn:?}");

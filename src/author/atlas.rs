@@ -64,7 +64,8 @@ fn charts_of_faces(charts: &[ChartPatch], half: &HalfMesh) -> Result<Vec<usize>,
 /// Squared lengths of the sides of each face of the half on the limit surface, the mean of all breeds in head units.
 fn mean_sides(half: &HalfMesh, table: &ParamTable) -> Result<Vec<[f64; 3]>, BakeError> {
     let rig = Rig::new(half.clone(), table)?;
-    let options = PlanOptions { positions: Positions::Limit, normals: Normals::None, ..PlanOptions::new(Scheme::Sqrt3, 0) };
+    let options =
+        PlanOptions { positions: Positions::Limit, normals: Normals::None, ..PlanOptions::new(Scheme::Sqrt3, 0) };
     let creases = rig.creases().map(|(a, b, sharpness)| (VertexId(a), VertexId(b), sharpness)).collect();
     let tags = Tags { creases, ..Tags::default() };
     let plan = Plan::build_with(rig.mesh(), &tags, &options)?;

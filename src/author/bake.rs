@@ -3,9 +3,9 @@
 use super::{atlas, base, bone, patch};
 use crate::anatomy::library::LibraryError;
 use crate::anatomy::{Breed, LoadErrors, ParamTable};
-use crate::subdiv::PlanError;
 use crate::rig::bone::{BoneHalf, BoneMesh};
 use crate::rig::{ControlError, HalfMesh, HalfUv, Handles, Measures, Proportions, RigError, columns};
+use crate::subdiv::PlanError;
 
 /// The patch file that is part of the program.
 pub const PATCH: &str = include_str!("../../assets/head.patch.ron");

@@ -142,8 +142,14 @@ fn solve(
         let g = rest.gradients();
         // weight times turn.
         let wr = [
-            [weight[0][0] * turn[0][0] + weight[0][1] * turn[1][0], weight[0][0] * turn[0][1] + weight[0][1] * turn[1][1]],
-            [weight[1][0] * turn[0][0] + weight[1][1] * turn[1][0], weight[1][0] * turn[0][1] + weight[1][1] * turn[1][1]],
+            [
+                weight[0][0] * turn[0][0] + weight[0][1] * turn[1][0],
+                weight[0][0] * turn[0][1] + weight[0][1] * turn[1][1],
+            ],
+            [
+                weight[1][0] * turn[0][0] + weight[1][1] * turn[1][0],
+                weight[1][0] * turn[0][1] + weight[1][1] * turn[1][1],
+            ],
         ];
         for k in 0..3 {
             for x in 0..2 {

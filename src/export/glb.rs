@@ -216,7 +216,8 @@ impl Writer {
 
     /// Joins the data to one buffer, with a view for each kind that occurs, and points the accessors at their views.
     fn buffer(&mut self) -> Vec<u8> {
-        let Geometry { positions, normals, colours, uvs, indices_u16, indices_u32, .. } = std::mem::take(&mut self.geometry);
+        let Geometry { positions, normals, colours, uvs, indices_u16, indices_u32, .. } =
+            std::mem::take(&mut self.geometry);
         let data = [positions, normals, colours, uvs, indices_u16, indices_u32];
         let mut views = [None; 6];
         let mut binary = Vec::new();

@@ -7,8 +7,8 @@
 use super::layers::Layers;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
-use super::values::Values;
 use super::uv::Uv;
+use super::values::Values;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;

@@ -3,8 +3,8 @@
 
 use super::parts::{Material, MaterialRange, PartTopology};
 use crate::anatomy::{Look, Region};
-use crate::rig::Rig;
 use crate::mesh::VertexId;
+use crate::rig::Rig;
 use crate::subdiv::{Plan, Tags};
 use glam::{Vec3, vec3};
 

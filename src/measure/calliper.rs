@@ -4,10 +4,10 @@
 //! the model; what it has to do with living dogs is as good as the numbers that the breed was made from.
 
 use crate::anatomy::Breed;
+use crate::frame::skin_tags;
 use crate::math::ops;
 use crate::rig::bone::{Bones, BonesOfHead};
 use crate::rig::{ControlError, Deformed, Rig, deform};
-use crate::frame::skin_tags;
 use crate::subdiv::{Evaluator, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! Whether a head is one: no edge of the skin at level 1 folds beyond 170 degrees where none may.
 
 use crate::anatomy::Breed;
+use crate::frame::skin_tags;
 use crate::mesh::{DedgeMesh, MeshError};
 use crate::rig::{Deformed, Rig, deform};
-use crate::frame::skin_tags;
 use crate::subdiv::{Evaluator, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;

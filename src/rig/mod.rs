@@ -133,7 +133,10 @@ impl Rig {
             let image = (mirror[a as usize], mirror[b as usize]);
             let own = (u32::from(a), u32::from(b));
             // An edge in the median plane is its own image.
-            [Some(own), Some(image).filter(|&image| image != own)].into_iter().flatten().map(move |(a, b)| (a, b, sharpness))
+            [Some(own), Some(image).filter(|&image| image != own)]
+                .into_iter()
+                .flatten()
+                .map(move |(a, b)| (a, b, sharpness))
         })
     }
 

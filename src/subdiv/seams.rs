@@ -96,7 +96,8 @@ impl SeamPlan {
             out.cut_faces(&walk);
         }
         let n = surface.n_vertices() as u32;
-        if out.vertices.len() != out.plan.n_vertices() + out.middles.len() || out.vertices.iter().flatten().any(|&v| v >= n)
+        if out.vertices.len() != out.plan.n_vertices() + out.middles.len()
+            || out.vertices.iter().flatten().any(|&v| v >= n)
         {
             return Err(FaceVaryingError::OtherPlan);
         }
@@ -228,8 +229,7 @@ impl Walk {
             .collect();
         // A directed edge is known by its ends.
         let ends = |mesh: &DedgeMesh, d: DedgeId| (mesh.origin(d).0, mesh.target(d).0);
-        let by_ends: BTreeMap<(u32, u32), u32> =
-            surface.mesh.dedges().map(|d| (ends(&surface.mesh, d), d.0)).collect();
+        let by_ends: BTreeMap<(u32, u32), u32> = surface.mesh.dedges().map(|d| (ends(&surface.mesh, d), d.0)).collect();
         let dedge = cut
             .mesh
             .dedges()
