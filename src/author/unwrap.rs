@@ -157,9 +157,9 @@ fn solve(
             }
             for l in 0..3 {
                 let dot = rest.area * (g[k][0] * g[l][0] + g[k][1] * g[l][1]);
-                for x in 0..2 {
-                    for y in 0..2 {
-                        system.add(2 * f[k] + x, 2 * f[l] + y, dot * weight[x][y]);
+                for (x, row) in weight.iter().enumerate() {
+                    for (y, weight) in row.iter().enumerate() {
+                        system.add(2 * f[k] + x, 2 * f[l] + y, dot * weight);
                     }
                 }
             }
