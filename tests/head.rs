@@ -151,7 +151,7 @@ fn there_are_more_extraordinary_vertices_than_told() {
     );
 }
 
-const EXTRAORDINARY: usize = 100;
+const EXTRAORDINARY: usize = 76;
 
 #[test]
 fn a_named_loop_is_open_or_jumps() {
