@@ -53,6 +53,7 @@ fn help_and_version_go_to_stdout() {
         "landmarks",
         "list",
         "check",
+        "uv",
         "bake",
         "subdivide",
         "bench",

@@ -4,7 +4,7 @@
 #[path = "support/stand_in.rs"]
 mod stand_in;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use gltf::mesh::util::{ReadColors, ReadIndices};
 use londra::anatomy::{Breed, ParamTable, library, load_breed};
 use londra::export::{GeometryError, GlbError, GlbOptions, to_glb};
@@ -85,6 +85,7 @@ impl Hand {
             colours: &self.colours,
             surface: &self.normals,
             flow: &self.normals,
+            uv: None,
         };
         Frame {
             parts: vec![part],
@@ -224,6 +225,59 @@ fn every_shipped_breed_is_read_back_as_its_frame_and_is_the_right_way_out() {
         let glb = to_glb(&frame, &table, &breed, &GlbOptions::default()).unwrap_or_else(|e| panic!("{id}: {e}"));
         compare(&glb, &frame);
         check_geometry(&frame);
+    }
+}
+
+#[test]
+fn texture_coordinates_are_lost_or_tear_the_skin() {
+    let table = Arc::new(table());
+    let rig = Arc::new(Rig::embedded(&table).unwrap());
+    for level in [1, 2] {
+        let mut pipeline = Pipeline::new(rig.clone(), level).unwrap();
+        pipeline.set_uv(true).unwrap();
+        let breed = breed(&table);
+        let frame = pipeline.update(&breed);
+        let glb = to_glb(&frame, &table, &breed, &GlbOptions::default()).unwrap();
+        let (document, buffers, _) = gltf::import_slice(&glb).unwrap();
+        for (mesh, part) in document.meshes().zip(&frame.parts) {
+            let mut distinct = std::collections::BTreeSet::new();
+            for (k, primitive) in mesh.primitives().enumerate() {
+                let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &data.0[..]));
+                let positions: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
+                let normals: Vec<[f32; 3]> = reader.read_normals().unwrap().collect();
+                let Some(uvs) = reader.read_tex_coords(0) else {
+                    assert!(part.uv.is_none(), "{} has lost its texture coordinates", part.topology.name);
+                    continue;
+                };
+                let uvs: Vec<[f32; 2]> = uvs.into_f32().collect();
+                assert_eq!((uvs.len(), normals.len()), (positions.len(), positions.len()));
+                assert!(uvs.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+                let uv = part.uv.unwrap();
+                let range = &uv.ranges[k];
+                let source = &uv.indices[range.start as usize..(range.start + range.count) as usize];
+                let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+                assert_eq!(indices.len(), source.len());
+                for (&compact, &drawn) in indices.iter().zip(source) {
+                    let compact = compact as usize;
+                    assert_eq!(Vec2::from(uvs[compact]), uv.coordinates[drawn as usize]);
+                    let [a, b] = uv.vertices[drawn as usize];
+                    if a == b {
+                        // Both sides of a seam have the bits of one vertex.
+                        let (position, normal) = (part.positions[a as usize], part.normals[a as usize]);
+                        assert_eq!(positions[compact].map(f32::to_bits), position.to_array().map(f32::to_bits));
+                        assert_eq!(normals[compact], normal.to_array());
+                    }
+                    let bits = positions[compact].map(|x| if x == 0.0 { 0 } else { x.to_bits() });
+                    distinct.insert(bits);
+                }
+            }
+            if let Some(uv) = part.uv.filter(|_| part.topology.name == "skin") {
+                let middles: std::collections::BTreeSet<_> =
+                    uv.vertices.iter().filter(|[a, b]| a != b).map(|&[a, b]| (a.min(b), a.max(b))).collect();
+                assert_eq!(distinct.len(), part.topology.n_vertices + middles.len(), "seams tear the skin");
+            }
+        }
+        assert!(frame.parts.iter().filter(|p| p.uv.is_some()).count() == 3, "skin and eyes");
     }
 }
 

@@ -263,8 +263,11 @@ impl Host {
     fn export(&mut self, path: &Path) -> Result<(), String> {
         let path = path.with_extension("glb");
         let breed = self.turn.state.breed().clone();
+        self.turn.pipeline.set_uv(true).map_err(|e| e.to_string())?;
         let frame = self.turn.pipeline.update(&breed);
         let bytes = export::to_glb(&frame, &self.turn.state.table, &breed, &GlbOptions::default());
+        // A window's own pictures need none.
+        self.turn.pipeline.set_uv(false).map_err(|e| e.to_string())?;
         let bytes = bytes.map_err(|e| e.to_string())?;
         files::write(&path, &bytes)?;
         self.turn.state.say(format!("Exported {}", files::in_full(&path).display()));

@@ -1,9 +1,11 @@
 //! Baked assets: what is made of the patch file and the table, bit for bit the same each time.
 
-use super::{base, bone, patch};
+use super::{atlas, base, bone, patch};
+use crate::anatomy::library::LibraryError;
 use crate::anatomy::{Breed, LoadErrors, ParamTable};
 use crate::rig::bone::{BoneHalf, BoneMesh};
-use crate::rig::{ControlError, HalfMesh, Handles, Measures, Proportions, RigError, columns};
+use crate::rig::{ControlError, HalfMesh, HalfUv, Handles, Measures, Proportions, RigError, columns};
+use crate::subdiv::PlanError;
 
 /// The patch file that is part of the program.
 pub const PATCH: &str = include_str!("../../assets/head.patch.ron");
@@ -35,6 +37,15 @@ pub enum BakeError {
     /// The table lacks a measure.
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// A breed does not load.
+    #[error(transparent)]
+    Breed(#[from] LibraryError),
+    /// The skin cannot be measured.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The charts find no place together.
+    #[error("the charts of assets/head.patch.ron cannot be packed: lower the density of one")]
+    Packing,
 }
 
 /// Makes `assets/head.ron` from a patch file and a table.
@@ -51,14 +62,25 @@ pub fn head(patch_text: &str, table: &ParamTable) -> Result<HalfMesh, BakeError>
     Ok(half)
 }
 
+/// Makes `assets/head_uv.ron` from a patch file, its baked mesh and a table.
+///
+/// # Errors
+/// [`BakeError`] says which of them is wrong and where.
+pub fn uv(patch_text: &str, half: &HalfMesh, table: &ParamTable) -> Result<HalfUv, BakeError> {
+    let file: patch::PatchFile = ron::from_str(patch_text)?;
+    atlas::lay_out(&file.charts, half, table)
+}
+
 /// Makes every baked asset from what is part of the program.
 ///
 /// # Errors
 /// See [`head`].
 pub fn all() -> Result<Vec<Baked>, BakeError> {
     let half = head(PATCH, &ParamTable::embedded()?)?;
+    let uv = uv(PATCH, &half, &ParamTable::embedded()?)?;
     Ok(vec![
         Baked { path: "assets/head.ron", text: text(&half) },
+        Baked { path: "assets/head_uv.ron", text: uv_text(&uv) },
         Baked { path: "assets/skull.ron", text: bone_text(&bone::half(BoneMesh::Skull)) },
         Baked { path: "assets/mandible.ron", text: bone_text(&bone::half(BoneMesh::Mandible)) },
     ])
@@ -88,6 +110,23 @@ fn bone_text(half: &BoneHalf) -> String {
     out
 }
 
+/// The charts as RON.
+fn uv_text(uv: &HalfUv) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from(
+        "// Baked by `londra bake` from assets/head.patch.ron, rigs/anatomy.ron and rigs/breeds. Edit those, not this.\n(\n    version: 1,\n    charts: [\n",
+    );
+    for chart in &uv.charts {
+        let _ = writeln!(out, "    (\n    name: {:?},", chart.name);
+        list(&mut out, "faces", chart.faces.iter().map(u16::to_string).collect(), 24);
+        list(&mut out, "vertices", chart.vertices.iter().map(u16::to_string).collect(), 24);
+        list(&mut out, "uvs", chart.uvs.iter().map(|[u, v]| format!("({u:?}, {v:?})")).collect(), 6);
+        let _ = writeln!(out, "    ),");
+    }
+    out.push_str("    ],\n)\n");
+    out
+}
+
 /// The half mesh as RON, a line for each vertex and triangle, so that a change reads well as a difference.
 fn text(half: &HalfMesh) -> String {
     use std::fmt::Write as _;
@@ -101,6 +140,7 @@ fn text(half: &HalfMesh) -> String {
     list("regions", half.regions.iter().map(|r| r.name().to_owned()).collect(), 10);
     list("faces", half.faces.iter().map(|f| format!("({})", numbers(f))).collect(), 8);
     list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 4);
+    list("creases", half.creases.iter().map(|(a, b, s)| format!("({a}, {b}, {s:?})")).collect(), 8);
     list("landmarks", half.landmarks.iter().map(|(id, name, v)| format!("({id:?}, {name:?}, {v})")).collect(), 1);
     let _ = writeln!(out, "    loops: {{");
     for (name, l) in &half.loops {

@@ -1,7 +1,11 @@
 //! How the head's assets are made: patch language, first fit, bake.
 
+mod atlas;
 pub mod bake;
 pub mod base;
 pub mod bone;
 mod nets;
+mod packing;
 pub mod patch;
+mod skyline;
+mod unwrap;

@@ -27,6 +27,32 @@ pub struct PatchFile {
     pub loops: BTreeMap<String, Vec<String>>,
     /// Named points: landmark id, name, vertex.
     pub landmarks: Vec<(String, String, String)>,
+    /// Edges of the skin: name, chains of vertices along it, sharpness in double steps of √3.
+    #[serde(default)]
+    pub creases: Vec<(String, Vec<String>, f32)>,
+    /// Charts of the texture's layout: a face belongs to the last that has all its corners.
+    pub charts: Vec<ChartPatch>,
+}
+
+/// A chart of the texture's layout.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChartPatch {
+    /// Its name.
+    pub name: String,
+    /// Chains of its vertices; none at all are all vertices.
+    #[serde(default)]
+    pub vertices: Vec<String>,
+    /// Chains in the median plane where it joins its mirror image.
+    #[serde(default)]
+    pub join: Vec<String>,
+    /// Length in the layout against length on the skin, beside the other charts.
+    #[serde(default = "even")]
+    pub density: f64,
+}
+
+fn even() -> f64 {
+    1.0
 }
 
 /// One step of a patch file.
@@ -107,6 +133,9 @@ pub enum PatchError {
     /// A vertex was made and given no region.
     #[error("vertex `{0}` has no region")]
     NoRegion(String),
+    /// Two neighbours of a crease's chain are no neighbours in the mesh.
+    #[error("crease `{0}` runs from `{1}` to `{2}`, but no edge joins them")]
+    NoEdge(String, String, String),
     /// The angles of a ring do not fit its vertices.
     #[error("ring `{0}` needs one angle for each vertex, increasing")]
     RingAngles(String),
@@ -315,6 +344,21 @@ impl Builder {
     }
 }
 
+/// The vertices that chains name.
+///
+/// # Errors
+/// A name that is none, or that the mesh has not.
+pub fn vertices(half: &HalfMesh, chains: &[String]) -> Result<Vec<u16>, PatchError> {
+    let mut out = Vec::new();
+    for chain in chains {
+        for tag in expand(chain)? {
+            let found = half.tags.iter().position(|t| *t == tag).ok_or(PatchError::UnknownVertex(tag))?;
+            out.push(found as u16);
+        }
+    }
+    Ok(out)
+}
+
 /// Runs a patch file; the base positions of the result are zero.
 ///
 /// # Errors
@@ -349,6 +393,17 @@ pub fn build(file: &PatchFile) -> Result<HalfMesh, PatchError> {
         .iter()
         .map(|(id, name, tag)| Ok((id.clone(), name.clone(), b.chain(std::slice::from_ref(tag))?[0])))
         .collect::<Result<_, PatchError>>()?;
+    let mut creases = Vec::new();
+    for (name, chain, sharpness) in &file.creases {
+        for pair in b.chain(chain)?.windows(2) {
+            let (v, w) = (pair[0], pair[1]);
+            if !b.edges.contains_key(&(v, w)) && !b.edges.contains_key(&(w, v)) {
+                let tag = |v: u16| b.tags[v as usize].clone();
+                return Err(PatchError::NoEdge(name.clone(), tag(v), tag(w)));
+            }
+            creases.push((v, w, *sharpness));
+        }
+    }
     let base = vec![[0.0; 3]; b.tags.len()];
-    Ok(HalfMesh { version: 1, tags: b.tags, midline, regions, faces: b.faces, loops, landmarks, base })
+    Ok(HalfMesh { version: 1, tags: b.tags, midline, regions, faces: b.faces, loops, landmarks, creases, base })
 }

@@ -59,6 +59,8 @@ pub(super) enum Command {
     List(List),
     /// Find every mistake in breed files
     Check(Check),
+    /// Draw the layout of the skin's texture as PNG
+    Uv(UvLayout),
     /// Rebuild the baked assets in Londra's sources
     Bake(Bake),
     /// Subdivide any mesh
@@ -425,6 +427,16 @@ pub(super) struct Check {
     pub files: Vec<PathBuf>,
     #[command(flatten)]
     pub report: Report,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  londra uv -o uv.png\n  londra uv --size 4096 -o to_paint_over.png")]
+pub(super) struct UvLayout {
+    /// Pixels of a side
+    #[arg(long, value_name = "PIXELS", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(64..=8192))]
+    pub size: u32,
+    #[command(flatten)]
+    pub target: Target,
 }
 
 #[derive(Args, Debug)]

@@ -12,6 +12,7 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    pipeline.set_uv(true).map_err(Failure::work)?;
     let frame = pipeline.update(&breed);
     let options = GlbOptions { copyright: args.copyright.clone() };
     let bytes = to_glb(&frame, &rigs.table, &breed, &options).map_err(Failure::work)?;

@@ -44,6 +44,7 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         colours: &colours,
         surface: &nothing,
         flow: &nothing,
+        uv: None,
     };
     let revisions = Revisions::default();
     let frame =

@@ -22,6 +22,7 @@ mod rigs;
 mod similarity;
 mod subdivide;
 mod subject;
+mod uv;
 mod values;
 mod view;
 
@@ -65,6 +66,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Landmarks(args) => landmarks::run(&args),
         Command::List(args) => list::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Uv(args) => uv::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Subdivide(args) => subdivide::run(&args),
         Command::Bench(args) => bench::run(&args),

@@ -57,12 +57,14 @@ pub enum GeometryError {
     },
 }
 
-/// Data by kind, each little-endian and dense. Positions and normals have 12 bytes per vertex, colours 4.
+/// Data by kind, each little-endian and dense. Positions and normals have 12 bytes per vertex, texture
+/// coordinates 8, colours 4.
 #[derive(Default)]
 pub(super) struct Geometry {
     pub positions: Vec<u8>,
     pub normals: Vec<u8>,
     pub colours: Vec<u8>,
+    pub uvs: Vec<u8>,
     pub indices_u16: Vec<u8>,
     pub indices_u32: Vec<u8>,
     n_vertices: usize,
@@ -73,6 +75,8 @@ pub(super) struct PrimitiveData {
     /// First vertex among all vertices written.
     pub first_vertex: usize,
     pub n_vertices: usize,
+    /// Byte at which its texture coordinates begin, if it has any.
+    pub first_uv_byte: Option<usize>,
     pub min: Vec3,
     pub max: Vec3,
     /// In `indices_u32` rather than in `indices_u16`.
@@ -93,13 +97,21 @@ impl Geometry {
 
         let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for &vertex in &used {
-            let position = finite(part, vertex, "position", part.positions[vertex])?;
-            let normal = unit(finite(part, vertex, "normal", part.normals[vertex])?);
-            let colour = finite(part, vertex, "colour", part.colours[vertex])?;
+            let position = finite(part, vertex, "position", value(part, part.positions, vertex))?;
+            let normal = unit(finite(part, vertex, "normal", value(part, part.normals, vertex))?);
+            let colour = finite(part, vertex, "colour", value(part, part.colours, vertex))?;
             (min, max) = (min.min(position), max.max(position));
             push_vec3(&mut self.positions, position);
             push_vec3(&mut self.normals, normal);
             self.colours.extend(linear_rgba8(colour));
+        }
+        let first_uv_byte = part.uv.map(|_| self.uvs.len());
+        if let Some(uv) = part.uv {
+            for &vertex in &used {
+                let place = uv.coordinates[vertex];
+                finite(part, vertex, "texture coordinate", place.extend(0.0))?;
+                self.uvs.extend(place.to_array().into_iter().flat_map(f32::to_le_bytes));
+            }
         }
 
         // 65535 is the restart value of 16-bit indices and must not occur.
@@ -120,6 +132,7 @@ impl Geometry {
         Ok(PrimitiveData {
             first_vertex,
             n_vertices,
+            first_uv_byte,
             min,
             max,
             wide,
@@ -134,6 +147,16 @@ fn check_lengths(part: &Part<'_>) -> Result<(), GeometryError> {
     let expected = part.topology.n_vertices;
     let lengths =
         [("positions", part.positions.len()), ("normals", part.normals.len()), ("colours", part.colours.len())];
+    if let Some(uv) = part.uv {
+        let (found, wanted) = (uv.coordinates.len(), uv.vertices.len());
+        if found != wanted {
+            let what = "texture coordinates";
+            return Err(GeometryError::Length { part: part.topology.name, what, found, expected: wanted });
+        }
+        if let Some(&index) = uv.vertices.iter().flatten().find(|&&v| v as usize >= expected) {
+            return Err(GeometryError::Index { part: part.topology.name, index, n_vertices: expected });
+        }
+    }
     match lengths.into_iter().find(|&(_, found)| found != expected) {
         Some((what, found)) => Err(GeometryError::Length { part: part.topology.name, what, found, expected }),
         None => Ok(()),
@@ -142,7 +165,7 @@ fn check_lengths(part: &Part<'_>) -> Result<(), GeometryError> {
 
 fn indices_of<'a>(part: &Part<'a>, range: &MaterialRange) -> Result<&'a [u32], GeometryError> {
     let MaterialRange { start, count, .. } = *range;
-    let indices = &part.topology.indices;
+    let indices = part.uv.map_or(&part.topology.indices, |uv| &uv.indices);
     let wrong = GeometryError::Range { part: part.topology.name, start, count, n_indices: indices.len() };
     if !count.is_multiple_of(3) {
         return Err(wrong);
@@ -152,13 +175,22 @@ fn indices_of<'a>(part: &Part<'a>, range: &MaterialRange) -> Result<&'a [u32], G
 
 /// The vertices that occur in `indices`, ascending.
 fn used_vertices(part: &Part<'_>, indices: &[u32]) -> Result<Vec<usize>, GeometryError> {
-    let n_vertices = part.topology.n_vertices;
+    let n_vertices = part.uv.map_or(part.topology.n_vertices, |uv| uv.vertices.len());
     let mut is_used = vec![false; n_vertices];
     for &index in indices {
         let used = is_used.get_mut(index as usize);
         *used.ok_or(GeometryError::Index { part: part.topology.name, index, n_vertices })? = true;
     }
     Ok((0..n_vertices).filter(|&v| is_used[v]).collect())
+}
+
+/// A value of a vertex to draw, which along the seams of a texture may lie between two vertices of the part.
+fn value(part: &Part<'_>, values: &[Vec3], vertex: usize) -> Vec3 {
+    match part.uv.map(|uv| uv.vertices[vertex]) {
+        None => values[vertex],
+        Some([a, b]) if a == b => values[a as usize],
+        Some([a, b]) => (values[a as usize] + values[b as usize]) * 0.5,
+    }
 }
 
 fn finite(part: &Part<'_>, vertex: usize, what: &'static str, value: Vec3) -> Result<Vec3, GeometryError> {

@@ -9,7 +9,7 @@
 use super::geometry::{Geometry, GeometryError, PrimitiveData};
 use super::materials;
 use crate::anatomy::{Breed, ParamTable, save_breed};
-use crate::frame::{Frame, Material};
+use crate::frame::{Frame, Material, MaterialRange, Part};
 use gltf_json as json;
 use json::accessor::{ComponentType, GenericComponentType, Type};
 use json::buffer::{Stride, Target};
@@ -93,12 +93,13 @@ fn extras(
     serde_json::value::to_raw_value(&extras)
 }
 
-/// The five kinds of data, in the order in which they lie in the buffer.
+/// The six kinds of data, in the order in which they lie in the buffer.
 #[derive(Clone, Copy)]
 enum Kind {
     Positions,
     Normals,
     Colours,
+    Uvs,
     IndicesU16,
     IndicesU32,
 }
@@ -116,8 +117,8 @@ impl Writer {
     /// Meshes and nodes of all parts that have triangles.
     fn parts(&mut self, frame: &Frame<'_>, fur: f32) -> Result<Vec<json::Index<json::Node>>, GlbError> {
         // Materials stand in the order of the enum, whatever the order of the parts.
-        let ranges = frame.parts.iter().flat_map(|p| &p.topology.ranges).filter(|r| r.count > 0);
-        let mut used: Vec<Material> = ranges.map(|r| r.material).collect();
+        let all = frame.parts.iter().flat_map(ranges).filter(|r| r.count > 0);
+        let mut used: Vec<Material> = all.map(|r| r.material).collect();
         used.sort();
         used.dedup();
         for material in used {
@@ -129,7 +130,7 @@ impl Writer {
         let mut children = Vec::new();
         for part in &frame.parts {
             let mut primitives = Vec::new();
-            for range in part.topology.ranges.iter().filter(|r| r.count > 0) {
+            for range in ranges(part).iter().filter(|r| r.count > 0) {
                 let data = self.geometry.push(part, range)?;
                 primitives.push(self.primitive(&data, range.material));
             }
@@ -166,12 +167,17 @@ impl Writer {
         };
         let ends = Some((vec![0].into(), vec![data.max_index].into()));
         let indices = self.accessor(kind, data.first_index_byte, data.n_indices, component, Type::Scalar, ends);
+        let mut attributes = BTreeMap::from([
+            (Checked::Valid(json::mesh::Semantic::Positions), position),
+            (Checked::Valid(json::mesh::Semantic::Normals), normal),
+            (Checked::Valid(json::mesh::Semantic::Colors(0)), colour),
+        ]);
+        if let Some(first) = data.first_uv_byte {
+            let uv = self.accessor(Kind::Uvs, first, count, float, Type::Vec2, None);
+            attributes.insert(Checked::Valid(json::mesh::Semantic::TexCoords(0)), uv);
+        }
         json::mesh::Primitive {
-            attributes: BTreeMap::from([
-                (Checked::Valid(json::mesh::Semantic::Positions), position),
-                (Checked::Valid(json::mesh::Semantic::Normals), normal),
-                (Checked::Valid(json::mesh::Semantic::Colors(0)), colour),
-            ]),
+            attributes,
             extensions: None,
             extras: None,
             indices: Some(indices),
@@ -210,16 +216,18 @@ impl Writer {
 
     /// Joins the data to one buffer, with a view for each kind that occurs, and points the accessors at their views.
     fn buffer(&mut self) -> Vec<u8> {
-        let Geometry { positions, normals, colours, indices_u16, indices_u32, .. } = std::mem::take(&mut self.geometry);
-        let data = [positions, normals, colours, indices_u16, indices_u32];
-        let mut views = [None; 5];
+        let Geometry { positions, normals, colours, uvs, indices_u16, indices_u32, .. } =
+            std::mem::take(&mut self.geometry);
+        let data = [positions, normals, colours, uvs, indices_u16, indices_u32];
+        let mut views = [None; 6];
         let mut binary = Vec::new();
         for (slot, bytes) in data.iter().enumerate().filter(|(_, bytes)| !bytes.is_empty()) {
             let (name, stride) = match slot {
                 0 => ("positions", Some(Stride(12))),
                 1 => ("normals", Some(Stride(12))),
                 2 => ("colours", Some(Stride(4))),
-                3 => ("indices_u16", None),
+                3 => ("uvs", Some(Stride(8))),
+                4 => ("indices_u16", None),
                 _ => ("indices_u32", None),
             };
             let target = if stride.is_some() { Target::ArrayBuffer } else { Target::ElementArrayBuffer };
@@ -244,6 +252,14 @@ impl Writer {
             self.root.push(json::Buffer { byte_length, name: None, uri: None, extensions: None, extras: None });
         }
         binary
+    }
+}
+
+/// The materials of what is drawn of a part.
+fn ranges<'a>(part: &Part<'a>) -> &'a [MaterialRange] {
+    match part.uv {
+        Some(uv) => &uv.ranges,
+        None => &part.topology.ranges,
     }
 }
 

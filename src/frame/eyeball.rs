@@ -3,9 +3,10 @@
 //! The borders of pupil and iris are doubled rings of vertices, so that they stay crisp whatever draws them.
 
 use super::parts::{Material, MaterialRange, PartTopology};
+use super::uv::Uv;
 use crate::math::ops;
 use crate::rig::Eye;
-use glam::{Vec3, vec3};
+use glam::{Vec3, vec2, vec3};
 
 const SEGMENTS: usize = 72;
 /// Degrees off the optical axis on an eye whose limbus is at `IRIS`; on others they are stretched to their own limbus.
@@ -72,6 +73,23 @@ pub(super) fn topology(name: &'static str) -> PartTopology {
         }
     }
     PartTopology { name, n_vertices: N_VERTICES, indices, ranges }
+}
+
+/// Texture coordinates, the same for both eyes: the eye as seen along its axis, the angle to it as the distance from the
+/// middle, and the pole behind as the rim. They have no seam.
+pub(super) fn uv(topology: &PartTopology) -> Uv {
+    let place = |v: usize| {
+        let (ring, segment) = (v / SEGMENTS, v % SEGMENTS);
+        let (sin, cos) = ops::sin_cos(core::f32::consts::TAU * segment as f32 / SEGMENTS as f32);
+        let radius = 0.49 * RINGS[ring] / 180.0;
+        vec2(0.5 + radius * cos, 0.5 - radius * sin)
+    };
+    Uv {
+        vertices: (0..N_VERTICES as u32).map(|v| [v, v]).collect(),
+        coordinates: (0..N_VERTICES).map(place).collect(),
+        indices: topology.indices.clone(),
+        ranges: topology.ranges.clone(),
+    }
 }
 
 /// Colours (`out`: [`N_VERTICES`]).

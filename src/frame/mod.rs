@@ -8,12 +8,15 @@ mod parts;
 mod pipeline;
 mod skeleton;
 mod skin;
+mod uv;
 mod values;
 mod whiskers;
 
 pub use layers::{Layers, LayersError};
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
 pub use pipeline::{MAX_LEVEL, Pipeline, PipelineError};
+pub use skin::tags as skin_tags;
+pub use uv::Uv;
 
 /// One 64-bit FNV-1a hash over the bits of each stage of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

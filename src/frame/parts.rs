@@ -3,6 +3,7 @@
 //! Lifetimes: [`PartTopology`] changes with the level of subdivision only, the value slices of a [`Part`] whenever the
 //! breed or its look does. [`Revisions`] says which, so that a consumer uploads what moved and nothing else.
 
+use super::uv::Uv;
 use crate::rig::whiskers::Whisker;
 use crate::subdiv::Plan;
 use glam::Vec3;
@@ -82,6 +83,8 @@ pub struct Part<'a> {
     pub surface: &'a [Vec3],
     /// Direction in which hair lies, in the head's frame; not unit, not exactly tangent; zero where there is none.
     pub flow: &'a [Vec3],
+    /// Where the part has a texture's layout and it has been asked for.
+    pub uv: Option<&'a Uv>,
 }
 
 /// Counters that grow when the thing they name has changed.

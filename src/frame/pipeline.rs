@@ -9,13 +9,14 @@ use super::layers::Layers;
 use super::mouth::MouthParts;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
+use super::uv::Uv;
 use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Rig, deform};
-use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
+use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -31,9 +32,12 @@ pub enum PipelineError {
     /// The plan cannot be built.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A baked bone is none, or a mesh lacks what a part stands on.
+    /// A baked asset is none, or a mesh lacks what a part stands on.
     #[error(transparent)]
-    Bone(#[from] ControlError),
+    Baked(#[from] ControlError),
+    /// The charts of the skin do not fit its plan.
+    #[error(transparent)]
+    Uv(#[from] FaceVaryingError),
 }
 
 /// From breeds to frames.
@@ -51,6 +55,8 @@ pub struct Pipeline {
     eyelids: EyelidParts,
     whiskers: WhiskerParts,
     layers: Layers,
+    /// Whether parts have texture coordinates.
+    uv: bool,
     /// Once bone or teeth are asked for.
     skeleton: Option<Skeleton>,
     /// Once mouth or tongue are asked for.
@@ -81,6 +87,7 @@ impl Pipeline {
             eyelids: EyelidParts::new(&rig)?,
             whiskers: WhiskerParts::new(&rig, &plan)?,
             layers: Layers::default(),
+            uv: false,
             skeleton: None,
             mouth: None,
             values: Vec::new(),
@@ -95,7 +102,7 @@ impl Pipeline {
         if level > MAX_LEVEL {
             return Err(PipelineError::Level(level));
         }
-        Ok(Plan::build(rig.mesh(), Scheme::Sqrt3, level)?)
+        Ok(Plan::build_with(rig.mesh(), &skin::tags(rig), &PlanOptions::new(Scheme::Sqrt3, level))?)
     }
 
     fn parts(rig: &Rig, plan: &Plan) -> [Values; 4] {
@@ -130,6 +137,23 @@ impl Pipeline {
         self.revisions.topology += 1;
         self.values.clear();
         self.look = None;
+        let wants_uv = std::mem::take(&mut self.uv);
+        self.set_uv(wants_uv)
+    }
+
+    /// Whether the next frames have texture coordinates. They cost nothing a frame, but something at each change of the
+    /// level.
+    ///
+    /// # Errors
+    /// Where the baked charts do not fit the mesh.
+    pub fn set_uv(&mut self, wanted: bool) -> Result<(), PipelineError> {
+        if wanted != self.uv {
+            let [skin, _, left, right] = &mut self.parts;
+            skin.uv = wanted.then(|| Uv::of_skin(&self.rig, &self.plan)).transpose()?;
+            left.uv = wanted.then(|| eyeball::uv(&left.topology));
+            right.uv = wanted.then(|| eyeball::uv(&right.topology));
+            self.uv = wanted;
+        }
         Ok(())
     }
 

@@ -3,8 +3,9 @@
 
 use super::parts::{Material, MaterialRange, PartTopology};
 use crate::anatomy::{Look, Region};
+use crate::mesh::VertexId;
 use crate::rig::Rig;
-use crate::subdiv::Plan;
+use crate::subdiv::{Plan, Tags};
 use glam::{Vec3, vec3};
 
 /// Material of a control face by the regions of its corners.
@@ -21,19 +22,31 @@ fn material(regions: [Region; 3]) -> Material {
     }
 }
 
-/// The skin's faces sorted by material; inside a material in the plan's order.
+/// What is sharp of the skin: every plan of it is built with these.
+pub fn tags(rig: &Rig) -> Tags {
+    let creases = rig.creases().map(|(a, b, sharpness)| (VertexId(a), VertexId(b), sharpness)).collect();
+    Tags { creases, ..Tags::default() }
+}
+
+/// The skin's faces sorted by material.
 pub(super) fn topology(rig: &Rig, plan: &Plan) -> PartTopology {
+    let (indices, ranges) = by_material(rig, plan.indices(), plan.face_parent());
+    PartTopology { name: "skin", n_vertices: plan.n_vertices(), indices, ranges }
+}
+
+/// Faces sorted by the material of their control faces; inside a material in the given order.
+pub(super) fn by_material(rig: &Rig, faces: &[u32], face_parent: &[u32]) -> (Vec<u32>, Vec<MaterialRange>) {
     let regions = rig.half().whole_regions();
     let control = rig.mesh().indices();
     let of_face: Vec<Material> = control
         .chunks_exact(3)
         .map(|f| material([regions[f[0] as usize], regions[f[1] as usize], regions[f[2] as usize]]))
         .collect();
-    let mut indices = Vec::with_capacity(plan.indices().len());
+    let mut indices = Vec::with_capacity(faces.len());
     let mut ranges = Vec::new();
     for wanted in [Material::Coat, Material::Nose, Material::Lip, Material::Mouth] {
         let start = indices.len() as u32;
-        for (face, &parent) in plan.indices().chunks_exact(3).zip(plan.face_parent()) {
+        for (face, &parent) in faces.chunks_exact(3).zip(face_parent) {
             if of_face[parent as usize] == wanted {
                 indices.extend_from_slice(face);
             }
@@ -43,7 +56,7 @@ pub(super) fn topology(rig: &Rig, plan: &Plan) -> PartTopology {
             ranges.push(MaterialRange { material: wanted, start, count });
         }
     }
-    PartTopology { name: "skin", n_vertices: plan.n_vertices(), indices, ranges }
+    (indices, ranges)
 }
 
 /// Colour of a region, linear.

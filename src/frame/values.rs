@@ -1,6 +1,7 @@
 //! The buffers of one part.
 
 use super::parts::{Part, PartTopology};
+use super::uv::Uv;
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -13,6 +14,8 @@ pub(super) struct Values {
     pub(super) colours: Vec<Vec3>,
     pub(super) surface: Vec<Vec3>,
     pub(super) flow: Vec<Vec3>,
+    /// Where it has been asked for.
+    pub(super) uv: Option<Uv>,
 }
 
 impl Values {
@@ -25,6 +28,7 @@ impl Values {
             colours: zero.clone(),
             surface: zero.clone(),
             flow: zero,
+            uv: None,
         }
     }
 
@@ -36,6 +40,7 @@ impl Values {
             colours: &self.colours,
             surface: &self.surface,
             flow: &self.flow,
+            uv: self.uv.as_ref(),
         }
     }
 }

@@ -4,10 +4,11 @@
 //! the model; what it has to do with living dogs is as good as the numbers that the breed was made from.
 
 use crate::anatomy::Breed;
+use crate::frame::skin_tags;
 use crate::math::ops;
 use crate::rig::bone::Bones;
 use crate::rig::{ControlError, Deformed, Rig, deform};
-use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
+use crate::subdiv::{Evaluator, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -136,7 +137,7 @@ impl Calliper {
     /// # Errors
     /// See [`MeasureError`].
     pub fn new(rig: Arc<Rig>) -> Result<Self, MeasureError> {
-        let plan = Plan::build(rig.mesh(), Scheme::Sqrt3, LEVEL)?;
+        let plan = Plan::build_with(rig.mesh(), &skin_tags(&rig), &PlanOptions::new(Scheme::Sqrt3, LEVEL))?;
         Ok(Self {
             bones: Bones::embedded()?,
             evaluator: Evaluator::new(&plan),

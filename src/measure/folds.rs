@@ -1,9 +1,10 @@
 //! Whether a head is one: no edge of the skin at level 1 folds beyond 170 degrees where none may.
 
 use crate::anatomy::Breed;
+use crate::frame::skin_tags;
 use crate::mesh::{DedgeMesh, MeshError};
 use crate::rig::{Deformed, Rig, deform};
-use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
+use crate::subdiv::{Evaluator, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -42,7 +43,7 @@ impl Folds {
     /// # Errors
     /// A control mesh that cannot be refined, which a test excludes.
     pub fn new(rig: Arc<Rig>) -> Result<Self, FoldsError> {
-        let plan = Plan::build(rig.mesh(), Scheme::Sqrt3, 1)?;
+        let plan = Plan::build_with(rig.mesh(), &skin_tags(&rig), &PlanOptions::new(Scheme::Sqrt3, 1))?;
         let triangles: Vec<[u32; 3]> = plan.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
         let mesh = DedgeMesh::from_triangles(plan.n_vertices(), &triangles)?;
         let free = free_vertices(&rig, plan.n_vertices());

@@ -28,6 +28,8 @@ pub struct HalfMesh {
     pub loops: BTreeMap<String, Vec<u16>>,
     /// Landmark id, name, vertex.
     pub landmarks: Vec<(String, String, u16)>,
+    /// Sharp edges, each by its two vertices and how many double steps of √3 it stays sharp.
+    pub creases: Vec<(u16, u16, f32)>,
     /// Control positions of the base head, in its proportions' frame and head units.
     pub base: Vec<[f32; 3]>,
 }
@@ -44,6 +46,9 @@ pub enum ControlError {
     /// A vertex that the shape needs is not there.
     #[error("assets/head.ron: the shape needs a vertex `{0}`")]
     Missing(String),
+    /// The charts of the skin do not fit the mesh.
+    #[error("assets/head_uv.ron: `{0}` of a chart do not fit assets/head.ron: run `londra bake`")]
+    Uv(&'static str),
     /// The mirrored mesh is no manifold.
     #[error("a baked asset: {0}")]
     Mesh(#[from] MeshError),
@@ -68,6 +73,7 @@ impl HalfMesh {
             ("base", self.base.len() == n),
             ("faces", self.faces.iter().flatten().all(|&v| (v as usize) < n)),
             ("loops", self.loops.values().flatten().all(|&v| (v as usize) < n)),
+            ("creases", self.creases.iter().all(|c| (c.0.max(c.1) as usize) < n)),
             ("landmarks", self.landmarks.iter().all(|l| (l.2 as usize) < n)),
         ];
         match fits.iter().find(|f| !f.1) {

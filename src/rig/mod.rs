@@ -16,6 +16,7 @@ mod mirror;
 pub mod mouth;
 mod primitives;
 mod proportions;
+mod uv;
 pub mod whiskers;
 
 pub use control::{ControlError, HalfMesh, HalfRings};
@@ -23,6 +24,7 @@ pub use eye::Eye;
 pub use handles::Handles;
 pub use landmarks::{Place, SkinLandmark};
 pub use proportions::{EarProportions, Measures, Proportions};
+pub use uv::{Chart, HEAD_UV, HalfUv};
 
 use crate::anatomy::{Breed, ParamTable};
 use crate::mesh::DedgeMesh;
@@ -116,6 +118,20 @@ impl Rig {
         let h = self.plan.handles();
         let inner = (3..11).flat_map(move |i| [(h.mu[i][1], 0.95), (h.ml[i][1], 0.95), (h.mu[i][2], 0.3)]);
         inner.flat_map(move |(v, pigment)| [(v as usize, pigment), (mirror[v as usize] as usize, pigment)])
+    }
+
+    /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
+    pub fn creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
+        let mirror = self.half.mirror();
+        self.half.creases.iter().flat_map(move |&(a, b, sharpness)| {
+            let image = (mirror[a as usize], mirror[b as usize]);
+            let own = (u32::from(a), u32::from(b));
+            // An edge in the median plane is its own image.
+            [Some(own), Some(image).filter(|&image| image != own)]
+                .into_iter()
+                .flatten()
+                .map(move |(a, b)| (a, b, sharpness))
+        })
     }
 
     /// Connectivity of the whole control mesh.

@@ -6,8 +6,8 @@
 //! the surface once for each side of a seam.
 //!
 //! OpenSubdiv does the same with face-varying channels and leaves the same choices ([`UvLinear`]). Loop, butterfly and
-//! Catmull-Clark keep edges, so a seam may run anywhere. √3 turns edges: there a seam must run where it does not, along a
-//! crease that lasts or a boundary.
+//! Catmull-Clark keep edges, so a seam may run anywhere. √3 turns edges: here a seam must run where it does not, along a
+//! crease that lasts or a boundary; [`SeamPlan`](super::SeamPlan) takes seams anywhere.
 
 use std::collections::BTreeMap;
 
@@ -237,20 +237,20 @@ fn marked(faces: &[FaceId], n_faces: usize) -> Vec<bool> {
 }
 
 /// A control mesh cut open along its seams.
-struct Cut<'a> {
+pub(super) struct Cut<'a> {
     control: &'a PolygonMesh,
     is_hole: Vec<bool>,
     /// For each corner its vertex of the cut mesh.
-    sector: Vec<u32>,
+    pub(super) sector: Vec<u32>,
     /// For each vertex of the cut mesh its value.
-    sources: Vec<u32>,
+    pub(super) sources: Vec<u32>,
     /// Where the vertices of the cut mesh begin that each control vertex has become; one entry more than there are.
     offsets: Vec<u32>,
     values: &'a [u32],
 }
 
 impl<'a> Cut<'a> {
-    fn new(
+    pub(super) fn new(
         control: &'a PolygonMesh,
         tags: &Tags,
         values: &'a [u32],
@@ -346,7 +346,7 @@ impl<'a> Cut<'a> {
     }
 
     /// The tags of the control mesh on the cut one, and what makes it linear where it should be.
-    fn tags(&self, mesh: &PolygonMesh, tags: &Tags, options: &PlanOptions, linear: UvLinear) -> Tags {
+    pub(super) fn tags(&self, mesh: &PolygonMesh, tags: &Tags, options: &PlanOptions, linear: UvLinear) -> Tags {
         let control = self.control;
         let mut cut = Tags { holes: tags.holes.clone(), frozen: tags.frozen.clone(), ..Tags::default() };
         let known = |v: VertexId| v.index() < control.n_vertices();

@@ -84,6 +84,7 @@ impl StandIn {
             colours: &p.colours,
             surface: &p.surface,
             flow: &p.flow,
+            uv: None,
         });
         Frame {
             parts: parts.collect(),
