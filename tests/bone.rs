@@ -119,9 +119,9 @@ const THIN: &[(&str, f32)] = &[
     // Below the ear's base, where the nuchal crest of small lean heads ends.
     ("s.16.6", 4.3),
     ("s.16.", 1.5),
-    ("s.15.", 1.0),
-    ("a0.", 0.7),
-    ("a1.", 0.7),
+    ("s.15.", 2.0),
+    ("a0.", 1.2),
+    ("a1.", 1.2),
     // The lower lip of undershot dogs and its lining, at the necks of their teeth.
     ("l.5.9", 3.6),
     ("l.6.9", 3.6),
@@ -136,7 +136,7 @@ const THIN: &[(&str, f32)] = &[
     ("s.10.1", 2.4),
     ("s.11.1", 2.4),
     // The cheek of toys and of the Pekingese.
-    ("s.9.", 1.5),
+    ("s.9.", 2.0),
     ("s.10.", 1.5),
     ("s.12.6", 2.4),
 ];

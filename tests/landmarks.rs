@@ -116,7 +116,7 @@ fn eyes_are_not_where_their_lids_are() {
         assert!((0.98..1.2).contains(&bulge), "{}: the cornea stands {bulge} radii off", breed.id);
         for lid in ["K29", "K30", "K31", "K32"] {
             let reach = at("K33").distance(at(lid)) / radius;
-            assert!((1.0..1.2).contains(&reach), "{}: {lid} at {reach} radii", breed.id);
+            assert!((1.0..1.3).contains(&reach), "{}: {lid} at {reach} radii", breed.id);
         }
     }
 }

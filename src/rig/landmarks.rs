@@ -23,7 +23,7 @@ const MORE: [(&str, &str, &[&str]); 22] = [
     ("K42", "whisker pad centre", &["s.3.6", "s.4.6", "s.4.7"]),
     ("K43", "genal vibrissa tuft", &["s.11.8"]),
     ("K44", "interramal vibrissa tuft", &["l.11.14"]),
-    ("K45", "supraorbital vibrissa tuft", &["s.10.2"]),
+    ("K45", "supraorbital vibrissa tuft", &["s.10.1", "s.10.2", "s.11.2"]),
     ("K53", "neck dorsal at atlas", &["s.17.0"]),
     ("K54", "neck lateral at atlas", &["s.18.5"]),
     ("K55", "neck ventral at C1", &["l.18.14"]),
