@@ -50,7 +50,8 @@ impl TissuePlan {
     /// The grids of the skin. Nose, lid margins, lips and leather have no bone below them, or their own place.
     pub(super) fn new(handles: &Handles) -> Self {
         let over = |vertex: u16, least: f32, layer: Layer| Carried { vertex, least, layer };
-        let upper = (1..20).flat_map(|i| (0..10).map(move |j| (i, j))).filter(|&(i, j)| j < 9 || i < 3 || i > 10);
+        let upper =
+            (1..20).flat_map(|i| (0..10).map(move |j| (i, j))).filter(|&(i, j)| j < 9 || !(3..=10).contains(&i));
         // Nor the temple, where muscle lies over the bone and the ear's base is near.
         let upper = upper.filter(|&(i, j)| !((12..=13).contains(&i) && (1..=6).contains(&j)));
         let upper = upper.map(|(i, j)| {
