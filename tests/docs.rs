@@ -29,6 +29,8 @@ fn entry(table: &ParamTable, spec: &ParamSpec) -> String {
     let unit = match spec.unit {
         Unit::Millimetre => " mm",
         Unit::Degree => " degrees",
+        Unit::Week => " weeks",
+        Unit::Kilogram => " kg",
         Unit::Ratio => "",
     };
     let mut out = format!("### `{}`\n\n", spec.id);

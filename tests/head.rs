@@ -601,18 +601,18 @@ fn a_breed_is_no_valid_head() {
 /// Blends of the sample that are known to be faulty, as they are: the hollow between bridge, stop and eye where one breed
 /// is narrow, and low ears on small heads. The large sweep meets more of both kinds.
 const KNOWN_BLENDS: &[[&str; 2]] = &[
+    ["bedlington", "beagle"],
     ["border_collie", "bloodhound"],
+    ["chihuahua", "bloodhound"],
+    ["german_shepherd", "dachshund"],
     ["borzoi", "beagle"],
     ["chihuahua", "beagle"],
     ["chihuahua", "borzoi"],
     ["chihuahua", "cavalier"],
     ["corgi", "chow_chow"],
     ["dachshund", "borzoi"],
-    ["dobermann", "archetype_dolicho"],
-    ["papillon", "archetype_dolicho"],
     ["pekingese", "chihuahua"],
     ["pug", "borzoi"],
-    ["rough_collie", "dobermann"],
     ["shih_tzu", "boston_terrier"],
 ];
 
@@ -748,7 +748,7 @@ const KNOWN_FALLS: &[(&str, &str, f32)] = &[
     ("german_shepherd", "neck_depth_mm", 2.5e-4),
     ("pug", "stop_angle_deg", 0.04),
     ("pug", "muzzle_width_root_mm", 6e-4),
-    ("borzoi", "stop_angle_deg", 5e-3),
+    ("borzoi", "stop_angle_deg", 7e-3),
     ("borzoi", "zygomatic_width_mm", 2e-4),
 ];
 

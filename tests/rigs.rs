@@ -370,15 +370,19 @@ fn broken_tables_are_refused_with_the_reason() {
         (
             "\"fold\"",
             "\"ear_mm\"",
-            "ear_mm must be lower-case letters, digits and _, and end in neither _mm nor _deg for the unit ratio",
+            "ear_mm must be lower-case letters, digits and _, and end in none of _mm, _deg, _weeks and _kg for the unit ratio",
         ),
         ("\"stop_deg\"", "\"stop\"", "stop must be lower-case letters, digits and _, and end in _deg for the unit deg"),
         (
             "\"fold\"",
             "\"Fold it\"",
-            "Fold it must be lower-case letters, digits and _, and end in neither _mm nor _deg for the unit ratio",
+            "Fold it must be lower-case letters, digits and _, and end in none of _mm, _deg, _weeks and _kg for the unit ratio",
         ),
-        ("unit: \"deg\"", "unit: \"rad\"", "parameters[3].unit must be \"mm\", \"deg\" or \"ratio\", found a text"),
+        (
+            "unit: \"deg\"",
+            "unit: \"rad\"",
+            "parameters[3].unit must be \"mm\", \"deg\", \"weeks\", \"kg\" or \"ratio\", found a text",
+        ),
         (
             "id: \"width_mm\", exponent",
             "id: \"widht_mm\", exponent",

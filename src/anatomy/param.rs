@@ -7,25 +7,36 @@ pub enum Unit {
     Millimetre,
     /// Ids end in `_deg`; radians inside.
     Degree,
-    /// A pure number; ids end in neither.
+    /// Ids end in `_weeks`; weeks inside.
+    Week,
+    /// Ids end in `_kg`; kilograms inside.
+    Kilogram,
+    /// A pure number; ids end in none of these.
     Ratio,
 }
 
 impl Unit {
-    /// Name in `rigs/anatomy.ron`: `mm`, `deg` or `ratio`.
+    /// Name in `rigs/anatomy.ron`: `mm`, `deg`, `weeks`, `kg` or `ratio`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
             Self::Degree => "deg",
+            Self::Week => "weeks",
+            Self::Kilogram => "kg",
             Self::Ratio => "ratio",
         }
     }
 
-    /// What stands behind a number on the screen: ` mm`, `°` or nothing.
+    /// All units.
+    pub const ALL: [Unit; 5] = [Self::Millimetre, Self::Degree, Self::Week, Self::Kilogram, Self::Ratio];
+
+    /// What stands behind a number on the screen: ` mm`, `°`, ` weeks`, ` kg` or nothing.
     pub const fn suffix(self) -> &'static str {
         match self {
             Self::Millimetre => " mm",
             Self::Degree => "°",
+            Self::Week => " weeks",
+            Self::Kilogram => " kg",
             Self::Ratio => "",
         }
     }
@@ -35,16 +46,18 @@ impl Unit {
         match id.rsplit_once('_') {
             Some((_, "mm")) => Self::Millimetre,
             Some((_, "deg")) => Self::Degree,
+            Some((_, "weeks")) => Self::Week,
+            Some((_, "kg")) => Self::Kilogram,
             _ => Self::Ratio,
         }
     }
 
-    /// File units to metres, radians or a pure number.
+    /// File units to metres, radians, weeks, kilograms or a pure number.
     pub fn to_si(self, value: f64) -> f32 {
         let si = match self {
             Self::Millimetre => value / 1000.0,
             Self::Degree => value.to_radians(),
-            Self::Ratio => value,
+            Self::Week | Self::Kilogram | Self::Ratio => value,
         };
         si as f32
     }
@@ -57,7 +70,7 @@ impl Unit {
         let value = match self {
             Self::Millimetre => wide * 1000.0,
             Self::Degree => wide.to_degrees(),
-            Self::Ratio => wide,
+            Self::Week | Self::Kilogram | Self::Ratio => wide,
         };
         shortest(value, |candidate| self.to_si(candidate).to_bits() == si.to_bits())
     }

@@ -170,7 +170,7 @@ impl Chart {
             _ if row == size => Scale::Size,
             Unit::Millimetre if spec.min > 0.0 => Scale::LogLength,
             Unit::Millimetre => Scale::Length,
-            Unit::Degree | Unit::Ratio => Scale::Linear,
+            Unit::Degree | Unit::Week | Unit::Kilogram | Unit::Ratio => Scale::Linear,
         };
         Some(Self { size, scales: table.specs.iter().enumerate().map(scale).collect() })
     }
@@ -210,7 +210,7 @@ fn tidy(spec: &ParamSpec, si: f32) -> f32 {
     let value = match spec.unit {
         Unit::Millimetre => wide * 1000.0,
         Unit::Degree => wide.to_degrees(),
-        Unit::Ratio => wide,
+        Unit::Week | Unit::Kilogram | Unit::Ratio => wide,
     };
     // Minus zero is written with a sign; adding zero takes it off.
     spec.to_si((value * per_unit).round() / per_unit + 0.0)

@@ -158,9 +158,9 @@ fn read_row(node: &Node, path: &str, problems: &mut Problems) -> Option<Row> {
 
 fn read_unit(node: &Node, field: &str, problems: &mut Problems) -> Option<Unit> {
     let name = problems.text(node, field)?;
-    let unit = [Unit::Millimetre, Unit::Degree, Unit::Ratio].into_iter().find(|u| u.name() == name);
+    let unit = Unit::ALL.into_iter().find(|u| u.name() == name);
     if unit.is_none() {
-        problems.wrong_type(node, field, "\"mm\", \"deg\" or \"ratio\"");
+        problems.wrong_type(node, field, "\"mm\", \"deg\", \"weeks\", \"kg\" or \"ratio\"");
     }
     unit
 }
@@ -198,7 +198,9 @@ fn check_id(id: &str, unit: Unit, place: Place, problems: &mut Problems) {
         let suffix = match unit {
             Unit::Millimetre => "_mm",
             Unit::Degree => "_deg",
-            Unit::Ratio => "neither _mm nor _deg",
+            Unit::Week => "_weeks",
+            Unit::Kilogram => "_kg",
+            Unit::Ratio => "none of _mm, _deg, _weeks and _kg",
         };
         problems.push(place, ProblemKind::BadId { id: id.to_owned(), suffix, unit: unit.name() });
     }

@@ -8,6 +8,7 @@ pub mod deform;
 mod eye;
 pub mod eyelids;
 mod flow;
+mod growth;
 pub mod handles;
 pub mod implicit;
 mod landmarks;
@@ -149,9 +150,9 @@ impl Rig {
         &self.plan
     }
 
-    /// A breed's values (SI, one per row of the table the rig was made for) by name.
+    /// A breed's values (SI, one per row of the table the rig was made for) by name, at its age and of its sex.
     pub fn measures(&self, values: &[f32]) -> Measures {
-        Measures::from_values(values, &self.columns)
+        growth::grown(&Measures::from_values(values, &self.columns))
     }
 
     /// A head's proportions from a breed's values (SI, one per row of the table the rig was made for).

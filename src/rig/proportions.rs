@@ -90,6 +90,8 @@ measures! {
     neck_width = "neck_width_mm",
     neck_depth = "neck_depth_mm",
     neck_angle = "neck_angle_deg",
+    age = "age_weeks",
+    sex = "sex",
 }
 
 /// Measures of the ear in head units and radians.
