@@ -50,7 +50,39 @@ fn age(m: &mut Measures) {
     }
     m.facial_length *= face;
     let between = by(0.5 * (FACE + CRANIUM));
-    let muzzle = [
+    for length in of_face(m) {
+        *length *= between;
+    }
+    for length in of_cranium(m) {
+        *length *= cranium;
+    }
+    m.eyeball_diameter *= by(EYEBALL);
+}
+
+fn sex(m: &mut Measures) {
+    let male = m.sex.clamp(-1.0, 1.0);
+    let (longer, stronger) = (1.0 + LONGER * male, 1.0 + STRONGER * male);
+    for muscle in [&mut m.occiput, &mut m.temporalis, &mut m.masseter, &mut m.brow, &mut m.dewlap] {
+        *muscle *= stronger;
+    }
+    // All lengths but the eyeball, which does not depend on sex (Chiwitt and others 2017).
+    for length in of_face(m) {
+        *length *= longer;
+    }
+    for length in of_cranium(m) {
+        *length *= longer;
+    }
+    for length in [&mut m.cranial_length, &mut m.cranial_width, &mut m.cranial_height, &mut m.facial_length] {
+        *length *= longer;
+    }
+    // A dog's neck is stronger still.
+    m.neck_width *= longer;
+    m.neck_depth *= longer;
+}
+
+/// Lengths that grow with the face, and half as much with the cranium: muzzle, nose, lips, ears' leather, neck.
+fn of_face(m: &mut Measures) -> [&mut f32; 18] {
+    [
         &mut m.muzzle_width_root,
         &mut m.muzzle_width_tip,
         &mut m.muzzle_depth_root,
@@ -69,68 +101,21 @@ fn age(m: &mut Measures) {
         &mut m.ear_width,
         &mut m.neck_width,
         &mut m.neck_depth,
-    ];
-    for length in muzzle {
-        *length *= between;
-    }
-    let with_cranium = [
-        &mut m.zygomatic_width,
-        &mut m.zygomatic_drop,
-        &mut m.eye_spacing,
-        &mut m.eye_height,
-        &mut m.eye_depth,
-        &mut m.ear_base,
-        &mut m.ear_set_height,
-        &mut m.ear_set_back,
-        &mut m.ear_set_width,
-        &mut m.ear_thickness,
-    ];
-    for length in with_cranium {
-        *length *= cranium;
-    }
-    m.eyeball_diameter *= by(EYEBALL);
+    ]
 }
 
-fn sex(m: &mut Measures) {
-    let male = m.sex.clamp(-1.0, 1.0);
-    let (longer, stronger) = (1.0 + LONGER * male, 1.0 + STRONGER * male);
-    for muscle in [&mut m.occiput, &mut m.temporalis, &mut m.masseter, &mut m.brow, &mut m.dewlap] {
-        *muscle *= stronger;
-    }
-    // All lengths but the eyeball, which does not depend on sex (Chiwitt and others 2017).
-    let lengths = [
-        &mut m.cranial_length,
-        &mut m.cranial_width,
-        &mut m.cranial_height,
+/// Lengths that grow with the cranium.
+fn of_cranium(m: &mut Measures) -> [&mut f32; 10] {
+    [
         &mut m.zygomatic_width,
         &mut m.zygomatic_drop,
-        &mut m.facial_length,
-        &mut m.muzzle_width_root,
-        &mut m.muzzle_width_tip,
-        &mut m.muzzle_depth_root,
-        &mut m.muzzle_depth_tip,
-        &mut m.nose_width,
-        &mut m.nose_height,
-        &mut m.nose_projection,
-        &mut m.flews,
-        &mut m.mouth_corner,
-        &mut m.jaw_offset,
-        &mut m.jaw_depth,
-        &mut m.chin,
         &mut m.eye_spacing,
         &mut m.eye_height,
         &mut m.eye_depth,
-        &mut m.ear_length,
-        &mut m.ear_width,
         &mut m.ear_base,
         &mut m.ear_set_height,
         &mut m.ear_set_back,
         &mut m.ear_set_width,
         &mut m.ear_thickness,
-    ];
-    for length in lengths {
-        *length *= longer;
-    }
-    m.neck_width *= 1.0 + 2.0 * LONGER * male;
-    m.neck_depth *= 1.0 + 2.0 * LONGER * male;
+    ]
 }
