@@ -31,16 +31,6 @@ fn bezier(p: [Vec3; 4], t: f32) -> Vec3 {
     p[0] * (u * u * u) + p[1] * (3.0 * u * u * t) + p[2] * (3.0 * u * t * t) + p[3] * (t * t * t)
 }
 
-/// Where a ray from outside meets the upper surface.
-fn shot(surface: &Implicit, from: Vec3, towards: Vec3) -> Vec3 {
-    let mut p = from;
-    for _ in 0..16 {
-        let (f, g) = surface.sample(p, Layer::Upper);
-        p += towards * (f / (-g.dot(towards)).max(0.6)).clamp(-1.0, 3.0);
-    }
-    p
-}
-
 /// Where a vertex should go to stand evenly among its neighbours: their mean, the longer edges counting more, so that
 /// vertices on the crest of a bump do not gather there.
 fn even_mean(rings: &HalfRings, v: usize, at: &[Vec3]) -> Vec3 {
@@ -169,25 +159,9 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
         }
     }
     let layer = layers(handles, at.len());
-    for round in 0..RELAX {
-        // In the hollow of the stop the projection drives vertices apart, up the forehead or down the bridge: there they
-        // are set between the dorsal midline and the orbit instead.
-        let mut set = Vec::new();
-        for (i, end, last) in [(6, 4, 3), (7, 4, 3), (8, 2, 1)] {
-            let (a, b) = (at[handles.s[i][0] as usize], at[handles.s[i][end] as usize]);
-            for j in 1..=last {
-                let t = j as f32 / end as f32;
-                let out = vec3(0.35 * t, 0.75, 0.55).normalize();
-                let p = shot(&surface, a + (b - a) * t + out * 2.5, -out);
-                at[handles.s[i][j] as usize] = p;
-                set.push(handles.s[i][j]);
-            }
-        }
-        if round + 1 == RELAX {
-            break;
-        }
+    for _ in 0..RELAX {
         let before = at.clone();
-        for &v in free.iter().filter(|v| !set.contains(v)) {
+        for &v in &free {
             let v = v as usize;
             // Along the surface only: across it the projection would fold what the mean has pulled through an edge.
             let pull = even_mean(plan.rings(), v, &before) * 0.4;

@@ -171,7 +171,7 @@ fn leap(before: Vec3, now: Vec3) -> Vec3 {
 /// Vertices in the hollow between bridge, brow and cheek, where the nearest point of the surface jumps from one side to
 /// the other: there the smooth start stands.
 pub fn hollow(handles: &Handles) -> Vec<u16> {
-    [&handles.s[7][1..4], &handles.s[8][1..4], &handles.s[7][5..6]].concat()
+    handles.s[7][5..6].to_vec()
 }
 
 /// Layer of every half vertex: the lips part the surfaces in front of the mouth's corner.
@@ -211,7 +211,8 @@ impl FitPlan {
             let of_kind: Vec<u16> = free.iter().copied().filter(on_surface).collect();
             pairs.extend(of_kind.chunks(2).map(|c| (c[0], c[c.len() - 1], kind)));
         }
-        let orbit = (0..12).map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();
+        let orbit = (0..12).filter(|&k| !pinned[handles.orbit[k] as usize]);
+        let orbit = orbit.map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();
         let spread = [-1.0, 1.0].map(|sign| Spread::new(rings, &half.midline, &held, sign));
         Self { spread, pairs, free, orbit, rings: rings.clone() }
     }

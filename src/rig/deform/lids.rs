@@ -46,10 +46,13 @@ pub(super) fn place(pins: &mut Pins) {
         pins.set(pins.handles.er[k], on_ball(x, y, 1.10) + before);
         pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015) + before * 0.8);
         let down = if k == 0 { 0.05 } else { 0.0 };
-        let fold = on_ball(x * (1.20 + 0.06 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16) + before;
+        // The fold comes forward over more of the lids than their margins do.
+        let forward = [1.0, 0.68, 0.2].get(k.min(12 - k)).copied().unwrap_or(0.0);
+        let fold = on_ball(x * (1.20 + 0.06 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16)
+            + g * (r * s.canthus() * forward);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
-        // The orbit's loop is free, but starts around this eye.
+        // The orbit's loop is free but before the hollow of the stop, and starts around this eye.
         let around = on_ball(x * 1.45, y * 1.75, 1.5);
         let around = pins.surface.project(vec3(around.x.max(0.3 * eye.x), around.y, around.z), Layer::Whole, 4);
         pins.set_guide(pins.handles.orbit[k], around);

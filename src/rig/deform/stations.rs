@@ -1,6 +1,6 @@
 //! Stations of the two midlines and a few guides at the sides, found on the surface from outside.
 
-use super::{Pins, Ray, sin_cos};
+use super::{Pins, Ray, orbit_axes, sin_cos};
 use crate::rig::implicit::Layer;
 use glam::{Vec3, vec3};
 
@@ -122,6 +122,8 @@ fn sides(pins: &mut Pins) {
     // The hollow between muzzle and cheek, where the surface turns twice, and the throat's sides.
     let hollow = s.head_from_muzzle(vec3(16.0, 0.45 * s.bridge0() + 0.55 * s.lip0(), 0.16 * edge));
     rays.push(Ray::guide(h.s[7][5], hollow, Vec3::NEG_X, Layer::Upper));
+    pins.trace(&mut rays);
+    eye_hollow(pins, &mut rays);
     for i in [12, 14, 16] {
         let below = pins.at[h.l[i][14] as usize];
         let from = below + vec3(9.0, -4.0, 0.0);
@@ -151,4 +153,37 @@ fn sides(pins: &mut Pins) {
         }
     }
     pins.keep(rays);
+}
+
+/// The hollow between bridge, stop and eye, where the nearest point of the surface jumps from one side to the other: steps
+/// from the bridge towards the muzzle's edge before the eye, seen from before and above, where no part of it hides another,
+/// and the orbit's loop between those and the lids. The parts of the way are those at which the skin of all breeds, and of
+/// blends of them, bends least.
+fn eye_hollow(pins: &mut Pins, rays: &mut Vec<Ray>) {
+    let s = pins.shape;
+    let h = pins.handles;
+    let at = |v: u16| pins.at[v as usize];
+    let (ridge, nasion) = (at(h.s[7][0]), at(h.s[8][0]));
+    let edge = at(h.of[0]).lerp(at(h.s[6][3]), 0.73);
+    let across = |t: f32| ridge.lerp(edge, t);
+    for (j, t) in [(1, 0.27), (2, 0.6), (3, 0.815), (4, 0.975)] {
+        let p = across(t);
+        let out = vec3(0.15 * p.x, 0.75, 0.55).normalize_or_zero();
+        rays.push(Ray::new(h.s[7][j], p + out * 2.5, -out, Layer::Upper));
+    }
+    let [_, _, gaze] = orbit_axes(s);
+    let around = |k: usize| {
+        let fold = at(h.of[k]);
+        let out = (fold - s.eye()).reject_from(gaze).normalize_or_zero();
+        fold + out * (0.35 * s.eye_r).min(0.42 * fold.x)
+    };
+    let brow = around(2).lerp(nasion, 0.57);
+    let medial = at(h.of[1]).lerp(across(0.6).lerp(brow, 0.62), 0.76);
+    let corner = around(0).lerp(across(0.815), 0.38);
+    for (v, p) in [(h.orbit[0], corner), (h.orbit[1], medial), (h.orbit[2], brow), (h.s[8][1], nasion.lerp(brow, 0.5))]
+    {
+        let on_skin = pins.surface.project(p, Layer::Upper, 4);
+        pins.set(v, on_skin);
+    }
+    pins.trace(rays);
 }
