@@ -19,5 +19,7 @@ struct Globals {
     measures: vec4<f32>,
     // Width and height in pixels, and one over each.
     viewport: vec4<f32>,
+    // How much of the haired skin is covered by strands, 0 to 1.
+    coat: vec4<f32>,
 }
 @group(0) @binding(0) var<uniform> globals: Globals;

@@ -22,13 +22,6 @@ const BONE: u32 = 6u;
 // And all else that is smooth and moist.
 const TOOTH: u32 = 7u;
 
-// Light, linear.
-const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
-const FILL: vec3<f32> = vec3<f32>(0.27, 0.34, 0.44);
-const RIM: vec3<f32> = vec3<f32>(1.75, 1.80, 1.95);
-const SKY: vec3<f32> = vec3<f32>(0.37, 0.42, 0.50);
-const GROUND: vec3<f32> = vec3<f32>(0.17, 0.14, 0.11);
-
 struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
@@ -64,14 +57,6 @@ struct Point {
     open: f32,
 }
 
-fn unit(v: vec3<f32>, instead: vec3<f32>) -> vec3<f32> {
-    let l = dot(v, v);
-    if l < 1e-12 {
-        return instead;
-    }
-    return v * inverseSqrt(l);
-}
-
 // ---- light -----------------------------------------------------------------------------------------------------
 
 // How much of the key light reaches a place: ten comparisons on a spiral, each over four texels.
@@ -92,21 +77,12 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
     return sum / 10.0;
 }
 
-fn sky(direction: vec3<f32>) -> vec3<f32> {
-    return mix(GROUND, SKY, smoothstep(-0.9, 0.9, dot(direction, globals.up.xyz)));
-}
-
 // What a mirror would show: the sky, a soft box for the key light, a narrow one for the rim.
 fn studio(direction: vec3<f32>, blur: f32) -> vec3<f32> {
     let key = smoothstep(0.90 - blur, 0.985, dot(direction, globals.key.xyz));
     let fill = smoothstep(0.80 - blur, 0.99, dot(direction, globals.fill.xyz));
     let rim = smoothstep(0.90 - blur, 0.99, dot(direction, globals.rim.xyz));
     return sky(direction) + KEY * key * 1.6 + FILL * fill * 1.2 + RIM * rim * 0.6;
-}
-
-// Lambert's cosine, let past the terminator by `wrap`, with its energy kept.
-fn wrapped(normal: vec3<f32>, light: vec3<f32>, wrap: f32) -> f32 {
-    return max(dot(normal, light) + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap));
 }
 
 fn diffuse(p: Point, wrap: f32) -> vec3<f32> {
@@ -132,17 +108,10 @@ fn lobe(p: Point, light: vec3<f32>, roughness: f32) -> f32 {
 
 // ---- noise -----------------------------------------------------------------------------------------------------
 
-// A rotation without symmetry, so that the noise's lattice lies along no axis of the head.
-const SKEW: mat3x3<f32> = mat3x3<f32>(
-    vec3<f32>(0.7268, 0.4423, -0.5254),
-    vec3<f32>(-0.1612, 0.8522, 0.4977),
-    vec3<f32>(0.6678, -0.2795, 0.6899),
-);
-
 // White noise smeared along the hair, minus its mean; about -1 to 1, four independent channels. `width` is that of a
 // streak in metres. Line integral convolution after Cabral and Leedom (1993), along the tangent.
 fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
-    if draft {
+    if draft || globals.coat.x >= 1.0 {
         return vec4<f32>(0.0);
     }
     let scale = SKEW * (1.0 / (width * 64.0));
@@ -204,20 +173,22 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     var along = flow - p.normal * dot(flow, p.normal);
     along = unit(along, unit(cross(p.normal, vec3<f32>(1.0, 0.0, 0.0)), vec3<f32>(0.0, 0.0, 1.0)));
 
+    // Between strands one sees down to where it is dark; they are streak enough.
+    let cover = globals.coat.x * fur;
     // Two widths of streaks; the finer one fades where a pixel spans more than it.
     let pixel = max(length(dpdx(p.position)), length(dpdy(p.position)));
     let fine_width = 0.0013 * size;
     let lock_width = 0.0042 * size;
     let clump = blobs(p.position, 0.012 * size);
     let lean = unit(along + cross(p.normal, along) * clump.x * 0.35, along);
-    let fine = streaks(p.position, lean, fine_width) * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)) * fur;
-    let locks = streaks(p.position, lean, lock_width) * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)) * fur;
+    let fine = streaks(p.position, lean, fine_width) * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)) * (fur - cover);
+    let locks = streaks(p.position, lean, lock_width) * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)) * (fur - cover);
     let mottle = blobs(p.position, 0.035 * size).y * fur;
 
     let sideways = cross(p.normal, lean);
     p.normal = unit(p.normal + sideways * (fine.y * 0.26 + locks.y * 0.22) + lean * (locks.z * 0.10), p.normal);
     let shade = fine.x * 0.18 + locks.x * 0.15 + mottle * 0.08;
-    let albedo = colour * exp(shade);
+    let albedo = colour * exp(shade) * (1.0 - 0.5 * cover);
 
     let facing = clamp(dot(smooth_normal, p.view), 0.0, 1.0);
     var light = albedo * diffuse(p, mix(0.2, 0.45, fur));
@@ -236,7 +207,7 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     let edge = pow(1.0 - facing, 3.0);
     let behind = RIM * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
     let tips = mix(albedo, vec3<f32>(1.0), 0.12) * (1.0 + 0.35 * fine.x);
-    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + KEY * 0.12 * p.lit) * edge * fur * p.open;
+    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + KEY * 0.12 * p.lit) * edge * (fur - cover) * p.open;
     return light;
 }
 
@@ -287,24 +258,6 @@ fn eye(p: Point, colour: vec3<f32>) -> vec3<f32> {
     light += KEY * window * 0.95 + FILL * second * 0.22;
     light += sky(mirror) * fresnel(cosine) * 1.1 * under_lid * p.open;
     return light;
-}
-
-// ---- film ------------------------------------------------------------------------------------------------------
-
-// A shoulder that starts late and never clips; the toe keeps dark coats dark. Colours are bent by their brightest
-// channel in part, so that pale coats keep their hue.
-fn film(light: vec3<f32>) -> vec3<f32> {
-    let x = max(light, vec3<f32>(0.0)) * 0.62;
-    let each = x * (1.0 + x * 0.09) / (1.0 + x * 0.78);
-    let peak = max(max(x.r, x.g), max(x.b, 1e-5));
-    let bent = peak * (1.0 + peak * 0.09) / (1.0 + peak * 0.78);
-    return clamp(mix(each, x * bent / peak, 0.5), vec3<f32>(0.0), vec3<f32>(1.0));
-}
-
-fn encoded(linear: vec3<f32>) -> vec3<f32> {
-    let low = linear * 12.92;
-    let high = 1.055 * pow(max(linear, vec3<f32>(1e-5)), vec3<f32>(1.0 / 2.4)) - 0.055;
-    return select(high, low, linear <= vec3<f32>(0.0031308));
 }
 
 @fragment

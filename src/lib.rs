@@ -12,6 +12,8 @@ pub mod anatomy;
 #[cfg(feature = "head")]
 pub mod author;
 #[cfg(feature = "head")]
+pub mod coat;
+#[cfg(feature = "head")]
 pub mod export;
 #[cfg(feature = "head")]
 pub mod frame;

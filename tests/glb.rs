@@ -93,6 +93,7 @@ impl Hand {
             control_indices: &[],
             plan: None,
             whiskers: &[],
+            coat: None,
             revisions: Revisions::default(),
         }
     }
@@ -413,6 +414,7 @@ fn a_range_without_triangles_and_a_frame_without_parts_are_left_out() {
         control_indices: &[],
         plan: None,
         whiskers: &[],
+        coat: None,
         revisions: Revisions::default(),
     };
     assert!(gltf::import_slice(export(&nothing)).is_ok());

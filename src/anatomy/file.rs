@@ -6,7 +6,7 @@
 
 use super::locate::{Item, Node, Place};
 use super::read::{Fields, Problems};
-use super::{ProblemKind, Status, colour};
+use super::{Hair, ProblemKind, Status, colour, hair};
 use glam::Vec3;
 
 /// The newest version that is read, and the one that is written.
@@ -53,6 +53,7 @@ pub(super) struct CoatFile {
     pub mouth: Vec3,
     pub iris: Vec3,
     pub fur: f32,
+    pub hair: Hair,
 }
 
 /// One of `marks`.
@@ -136,7 +137,7 @@ fn read_measures(node: &Node, problems: &mut Problems) -> Vec<Measure> {
 }
 
 fn read_coat(node: &Node, problems: &mut Problems) -> Option<CoatFile> {
-    let allowed = ["base", "marks", "nose", "lips", "mouth", "iris", "fur"];
+    let allowed = ["base", "marks", "nose", "lips", "mouth", "iris", "fur", "hair"];
     let fields = problems.fields(node, "coat", "Coat", &allowed)?;
     let mut colour = |key: &str| {
         let node = fields.require(key, problems);
@@ -149,7 +150,21 @@ fn read_coat(node: &Node, problems: &mut Problems) -> Option<CoatFile> {
         let nodes = problems.list(node, "coat.marks").iter().enumerate();
         nodes.filter_map(|(i, n)| read_mark(n, &format!("coat.marks[{i}]"), problems)).collect()
     });
-    Some(CoatFile { base, marks, nose, lips, mouth, iris, fur: fur.unwrap_or_default() as f32 })
+    let hair = fields.get("hair").map_or(Some(Hair::default()), |n| read_hair(n, problems)).unwrap_or_default();
+    Some(CoatFile { base, marks, nose, lips, mouth, iris, fur: fur.unwrap_or_default() as f32, hair })
+}
+
+fn read_hair(node: &Node, problems: &mut Problems) -> Option<Hair> {
+    let fields = problems.fields(node, "coat.hair", "Hair", &hair::NAMES)?;
+    let given: Vec<Option<f32>> = hair::FIELDS
+        .iter()
+        .map(|field| {
+            let path = fields.path_of(field.name);
+            let value = problems.number_in(fields.get(field.name)?, &path, 0.0, field.max())?;
+            Some((value * field.unit()) as f32)
+        })
+        .collect();
+    Some(Hair::from_given(|i| given[i]))
 }
 
 fn read_mark(node: &Node, path: &str, problems: &mut Problems) -> Option<MarkFile> {

@@ -89,8 +89,8 @@ fn resolve_look(coat: file::CoatFile, problems: &mut Problems) -> Look {
         }
         marks.push(Mark { regions, colour: mark.colour, amount: mark.amount });
     }
-    let file::CoatFile { base, nose, lips, mouth, iris, fur, .. } = coat;
-    Look { base, marks, nose, lips, mouth, iris, fur }
+    let file::CoatFile { base, nose, lips, mouth, iris, fur, hair, .. } = coat;
+    Look { base, marks, nose, lips, mouth, iris, fur, hair }
 }
 
 /// The file's name without folders and ending.

@@ -1,6 +1,6 @@
-//! How a dog is coloured.
+//! How a dog's coat looks.
 
-use super::{Region, colour};
+use super::{Hair, Region, colour};
 use glam::Vec3;
 
 /// A patch of another colour over one or more regions.
@@ -14,7 +14,7 @@ pub struct Mark {
     pub amount: f32,
 }
 
-/// Colours of a head; linear, each channel 0 to 1.
+/// Colours of a head, linear, each channel 0 to 1; and its hair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// Colour of the coat where no mark is.
@@ -31,6 +31,8 @@ pub struct Look {
     pub iris: Vec3,
     /// How haired the coat looks: 0 bare, 1 haired.
     pub fur: f32,
+    /// How long it is, and how it stands.
+    pub hair: Hair,
 }
 
 impl Default for Look {
@@ -45,6 +47,7 @@ impl Default for Look {
             mouth: srgb([0xb5, 0x6a, 0x66]),
             iris: srgb([0x5a, 0x3a, 0x1a]),
             fur: 1.0,
+            hair: Hair::default(),
         }
     }
 }
@@ -91,6 +94,7 @@ impl Look {
             mouth: mean(&|l| l.mouth),
             iris: mean(&|l| l.iris),
             fur: fur.clamp(0.0, 1.0),
+            hair: Hair::blend(looks.iter().map(|(look, w)| (&look.hair, *w))),
         }
     }
 }

@@ -11,6 +11,7 @@
 mod breed;
 pub mod colour;
 mod file;
+mod hair;
 pub mod library;
 mod litter;
 mod load;
@@ -28,6 +29,7 @@ mod space;
 mod table;
 
 pub use breed::Breed;
+pub use hair::Hair;
 pub use litter::{INHERITED_WHOLE, cross};
 pub use load::load_breed;
 pub use locate::Place;

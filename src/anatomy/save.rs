@@ -1,7 +1,7 @@
 //! [`Breed`] to text.
 
 use super::file::NEWEST;
-use super::{Breed, ParamTable, Reference, colour, param};
+use super::{Breed, Hair, ParamTable, Reference, colour, hair, param};
 use glam::Vec3;
 use std::fmt::Write;
 
@@ -47,7 +47,17 @@ fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt:
     for (name, colour) in [("nose", look.nose), ("lips", look.lips), ("mouth", look.mouth), ("iris", look.iris)] {
         writeln!(out, "        {name}: {},", colour_text(colour))?;
     }
-    writeln!(out, "        fur: {},\n    ),\n)", number(look.fur))
+    writeln!(out, "        fur: {},", number(look.fur))?;
+    writeln!(out, "        hair: ({}),\n    ),\n)", hair_text(&look.hair))
+}
+
+fn hair_text(hair: &Hair) -> String {
+    let numbers = hair::FIELDS.iter().map(|field| {
+        let (value, unit) = ((field.get)(hair), field.unit());
+        let is_same = |c: f64| ((c * unit) as f32).to_bits() == value.to_bits();
+        format!("{}: {:?}", field.name, param::shortest(f64::from(value) / unit, is_same))
+    });
+    numbers.collect::<Vec<_>>().join(", ")
 }
 
 fn colour_text(linear: Vec3) -> String {

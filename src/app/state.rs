@@ -144,6 +144,8 @@ pub struct EditorState {
     pub shading: Shading,
     /// Which layers are shown, and how much of the skin.
     pub layers: Layers,
+    /// Strands of hair on the head.
+    pub n_strands: u32,
     /// From where.
     pub camera: Camera,
     /// The camera is to be fitted to the head before the next picture.
@@ -195,6 +197,7 @@ impl EditorState {
             level: 4,
             shading: Shading::Shaded,
             layers: Layers::default(),
+            n_strands: 0,
             camera: Camera::at(View::Portrait, None, Lens::default()),
             wants_fit: true,
             light_turn: 0.0,

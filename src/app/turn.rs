@@ -6,7 +6,7 @@ use super::panels;
 use super::scene::Scene;
 use super::state::EditorState;
 use crate::frame::{Frame, Pipeline, PipelineError};
-use crate::render::{Drawing, Gpu, ShaderError, ShaderSources};
+use crate::render::{Drawing, Gpu, ShaderError, ShaderSources, Shading};
 use crate::rig::{Rig, RigError};
 use std::sync::Arc;
 use std::time::Instant;
@@ -25,6 +25,9 @@ pub(super) enum TurnError {
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
 }
+
+/// Strands of hair on a window's head at first, where a graphics card draws it.
+const HAIR: u32 = 90_000;
 
 /// What a window shows and what draws it; as long as the device.
 pub(super) struct Turn {
@@ -57,8 +60,10 @@ impl Turn {
         gpu: Gpu,
         format: wgpu::TextureFormat,
         sources: &ShaderSources,
-        state: EditorState,
+        mut state: EditorState,
     ) -> Result<Self, TurnError> {
+        // A software driver would take seconds for a picture.
+        state.n_strands = if gpu.is_software() { 0 } else { HAIR };
         let context = egui::Context::default();
         panels::set_fonts(&context);
         let mut renderer = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
@@ -90,6 +95,7 @@ impl Turn {
         if let Err(e) = self.pipeline.set_layers(self.state.layers) {
             self.state.complain(e.to_string());
         }
+        self.pipeline.set_hair(self.state.n_strands as usize);
         let frame = self.pipeline.update(self.state.breed());
         // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
         let has_moved = frame.revisions.shape != self.shape;
@@ -151,6 +157,8 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
         light_turn: state.light_turn,
         on_card: state.on_card,
         skin_opacity: state.layers.skin,
+        // Hair would hide the lines.
+        n_strands: if state.shading == Shading::Shaded { state.n_strands } else { 0 },
         pixels_per_point,
     }
 }

@@ -141,6 +141,10 @@ pub(super) struct Scene {
     /// through
     #[arg(long, value_name = "A,B,C", default_value = "skin,eyes,whiskers", value_parser = Layers::parse)]
     pub layers: Layers,
+    /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
+    /// one head, low for a sheet, off below lines
+    #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
+    pub hair: Option<u32>,
     /// Draw lines over the surfaces: the edges of the control mesh, or with =refined every edge
     #[arg(long, value_name = "control|refined", num_args = 0..=1, require_equals = true, default_missing_value = "control")]
     pub wireframe: Option<Wires>,

@@ -47,8 +47,15 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         uv: None,
     };
     let revisions = Revisions::default();
-    let frame =
-        Frame { parts: vec![part], control: &fitted, control_indices: &edges, plan: None, whiskers: &[], revisions };
+    let frame = Frame {
+        parts: vec![part],
+        control: &fitted,
+        control_indices: &edges,
+        plan: None,
+        whiskers: &[],
+        coat: None,
+        revisions,
+    };
     let [azimuth, elevation] = FROM.map(f32::to_radians);
     let mut camera = Camera::at(View::Angles { azimuth, elevation }, Some(0.0), Lens::default());
     camera.fit(positions.iter(), SIZE[0] as f32 / SIZE[1] as f32, MARGIN);

@@ -10,6 +10,9 @@ use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
 const CELL: u32 = 320;
+/// Strands of hair of one head, and of each on a sheet, when nobody says how many.
+const HAIR: u32 = 90_000;
+const SHEET_HAIR: u32 = 10_000;
 /// Part of the picture left free around a head.
 const MARGIN: f32 = 0.08;
 
@@ -20,6 +23,8 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    let n_strands = hair(&args.scene, HAIR);
+    pipeline.set_hair(n_strands as usize);
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
 
@@ -28,12 +33,14 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
         background: background(&args.scene),
         skin_opacity: args.scene.layers.skin,
         shading: shading(&args.scene),
+        n_strands,
         ..Drawing::new(camera)
     };
     let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
+        "strands": frame.coat.map_or(0, |c| c.roots.len()),
     });
     write(args.target.output.as_path(), args.target.report.json, &picture, facts)
 }
@@ -59,6 +66,8 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    let n_strands = hair(&args.scene, SHEET_HAIR);
+    pipeline.set_hair(n_strands as usize);
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {
@@ -72,6 +81,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
     sheet.skin_opacity = args.scene.layers.skin;
     sheet.shading = shading(&args.scene);
+    sheet.n_strands = n_strands;
     sheet.heads_across = args.columns;
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
@@ -115,6 +125,11 @@ fn on_paper(sheet: &Picture, [width, height]: [u32; 2]) -> Picture {
 
 fn background(scene: &Scene) -> Background {
     scene.background.unwrap_or_default()
+}
+
+/// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces.
+fn hair(scene: &Scene, otherwise: u32) -> u32 {
+    scene.hair.unwrap_or(if scene.wireframe.is_some() { 0 } else { otherwise })
 }
 
 fn shading(scene: &Scene) -> Shading {

@@ -1,6 +1,7 @@
 //! Words of the command line as values. Each error says what would be right.
 
 use crate::anatomy::{colour, nearest};
+use crate::coat;
 use crate::render::{Background, View};
 use crate::subdiv::Scheme;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -58,6 +59,16 @@ pub(super) fn background(text: &str) -> Result<Background, String> {
     known.ok_or_else(|| {
         let near = nearest(text, NAMED.iter().map(|(name, _)| (*name, *name)).chain([("none", "none")]));
         format!("say none, white, black, grey, silver or rrggbb such as 20242c{}", did_you_mean(&near))
+    })
+}
+
+/// Strands of hair: a level's name or a number.
+pub(super) fn hair(text: &str) -> Result<u32, String> {
+    let named = coat::LEVELS.iter().find(|(name, _)| *name == text).map(|(_, n)| *n);
+    let n = named.or_else(|| text.parse().ok()).filter(|&n| n <= coat::MAX_STRANDS);
+    n.map(|n| n as u32).ok_or_else(|| {
+        let near = nearest(text, coat::LEVELS.iter().map(|(name, _)| (*name, *name)));
+        format!("say off, low, medium, high or a number from 0 to {}{}", coat::MAX_STRANDS, did_you_mean(&near))
     })
 }
 
@@ -163,6 +174,11 @@ mod tests {
         for text in ["", "front,", "30", "front,30", "10,side"] {
             assert!(views(text).is_err(), "{text}");
         }
+        assert_eq!([hair("off"), hair("medium"), hair("70")], [Ok(0), Ok(90_000), Ok(70)]);
+        for text in ["", "-1", "500001", "1e3", "lots"] {
+            assert!(hair(text).is_err(), "{text}");
+        }
+        assert!(hair("hihg").unwrap_err().contains("did you mean high?"));
         assert!(pitch("91").is_err() && pitch("x").is_err());
         assert_eq!(angle("180"), Ok(std::f64::consts::PI));
         assert!(angle("-1").is_err() && angle("181").is_err() && angle("nan").is_err());

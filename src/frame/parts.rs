@@ -4,6 +4,7 @@
 //! breed or its look does. [`Revisions`] says which, so that a consumer uploads what moved and nothing else.
 
 use super::uv::Uv;
+use crate::coat::Coat;
 use crate::rig::whiskers::Whisker;
 use crate::subdiv::Plan;
 use glam::Vec3;
@@ -94,7 +95,7 @@ pub struct Revisions {
     pub topology: u64,
     /// Positions, normals, flow.
     pub shape: u64,
-    /// Colours and surface qualities.
+    /// Colours, surface qualities, length and direction of hair.
     pub look: u64,
 }
 
@@ -114,6 +115,8 @@ pub struct Frame<'a> {
     pub plan: Option<&'a Plan>,
     /// Whiskers, the left ones, then their mirror images; empty where they are not shown.
     pub whiskers: &'a [Whisker],
+    /// Hair on the first part; none where it has not been asked for.
+    pub coat: Option<Coat<'a>>,
     /// What has changed since the last frame.
     pub revisions: Revisions,
 }

@@ -14,6 +14,7 @@ use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
+use crate::coat::{self, Coat, Root};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme};
@@ -61,9 +62,23 @@ pub struct Pipeline {
     skeleton: Option<Skeleton>,
     /// Once mouth or tongue are asked for.
     mouth: Option<MouthParts>,
+    hair: HairValues,
     values: Vec<f32>,
     look: Option<Look>,
     revisions: Revisions,
+}
+
+/// What frames tell of hair; empty until hair is asked for.
+#[derive(Default)]
+struct HairValues {
+    /// How many strands are wanted.
+    n_strands: usize,
+    /// Of this level.
+    roots: Vec<Root>,
+    control_growth: Vec<Vec3>,
+    control_comb: Vec<Vec3>,
+    growth: Vec<Vec3>,
+    comb: Vec<Vec3>,
 }
 
 impl Pipeline {
@@ -90,6 +105,7 @@ impl Pipeline {
             uv: false,
             skeleton: None,
             mouth: None,
+            hair: HairValues::default(),
             values: Vec::new(),
             look: None,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
@@ -137,6 +153,7 @@ impl Pipeline {
         self.revisions.topology += 1;
         self.values.clear();
         self.look = None;
+        self.root_hair();
         let wants_uv = std::mem::take(&mut self.uv);
         self.set_uv(wants_uv)
     }
@@ -188,6 +205,34 @@ impl Pipeline {
         self.layers
     }
 
+    /// How many strands of hair the next frames have, at most [`coat::MAX_STRANDS`]; at first none. They cost nothing a
+    /// frame, but something at each change of the level and of the look.
+    pub fn set_hair(&mut self, n_strands: usize) {
+        let had_none = self.hair.n_strands == 0;
+        if n_strands != self.hair.n_strands {
+            self.hair.n_strands = n_strands;
+            self.root_hair();
+        }
+        if had_none && n_strands > 0 {
+            self.look = None;
+        }
+    }
+
+    /// Makes the roots that are wanted on the skin of this level.
+    fn root_hair(&mut self) {
+        self.hair.roots.clear();
+        if self.hair.n_strands > 0 {
+            let topology = &self.parts[0].topology;
+            let triangles = topology.indices.as_chunks::<3>().0;
+            let is_haired: Vec<bool> = topology
+                .ranges
+                .iter()
+                .flat_map(|r| std::iter::repeat_n(r.material == Material::Coat, r.count as usize / 3))
+                .collect();
+            self.hair.roots = coat::roots(&self.rig, &self.plan, triangles, &is_haired, self.hair.n_strands);
+        }
+    }
+
     /// Threads that evaluate; the bits do not depend on it.
     pub fn set_threads(&mut self, n: usize) {
         self.threads = n;
@@ -229,8 +274,15 @@ impl Pipeline {
             control_indices: self.rig.mesh().indices(),
             plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
             whiskers: if self.layers.whiskers { &self.whiskers.whiskers } else { &[] },
+            coat: self.coat(),
             revisions: self.revisions,
         }
+    }
+
+    fn coat(&self) -> Option<Coat<'_>> {
+        let HairValues { roots, growth, comb, .. } = &self.hair;
+        let look = self.look.as_ref().filter(|_| !roots.is_empty() && self.layers.skin > 0.0)?;
+        Some(Coat { roots, growth, comb, hair: &look.hair })
     }
 
     /// The parts of the layers, in the written order.
@@ -273,6 +325,19 @@ impl Pipeline {
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_attribute(&self.plan, &self.control_colours, &mut skin.colours);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_surface, &mut skin.surface);
+        if self.hair.n_strands > 0 {
+            let HairValues { control_growth, control_comb, growth, comb, .. } = &mut self.hair;
+            for values in [&mut *control_growth, &mut *control_comb] {
+                values.resize(self.rig.mesh().n_vertices(), Vec3::ZERO);
+            }
+            for values in [&mut *growth, &mut *comb] {
+                values.resize(self.plan.n_vertices(), Vec3::ZERO);
+            }
+            let surface = &self.control_surface;
+            coat::groom(&self.rig, &look.hair, |v| surface[v].z, control_growth, control_comb);
+            self.evaluator.evaluate_attribute(&self.plan, control_growth, growth);
+            self.evaluator.evaluate_attribute(&self.plan, control_comb, comb);
+        }
         cap.colours.fill(look.base * 0.35);
         for eye in [left, right] {
             eyeball::colours(look.iris, &mut eye.colours);

@@ -19,6 +19,8 @@ pub(super) struct Globals {
     background_bottom: Vec4,
     measures: Vec4,
     viewport: Vec4,
+    /// How much of the haired skin is covered by strands, 0 to 1; the rest is free.
+    pub(super) coat: Vec4,
 }
 
 /// Where a lamp stands: degrees around the vertical from the camera, and above the horizontal.
@@ -37,15 +39,17 @@ const RIM: Lamp = Lamp { azimuth: 152.0, elevation: 38.0 };
 pub(super) struct Extent {
     pub centre: Vec3,
     pub radius: f32,
+    /// How far hair may reach out of it, metres.
+    pub margin: f32,
 }
 
 impl Extent {
     /// Around the box between two corners; an empty box gives a small sphere at the origin.
     pub(super) fn of_box((low, high): (Vec3, Vec3)) -> Self {
         if !(low.is_finite() && high.is_finite()) {
-            return Self { centre: Vec3::ZERO, radius: 0.1 };
+            return Self { centre: Vec3::ZERO, radius: 0.1, margin: 0.0 };
         }
-        Self { centre: (low + high) * 0.5, radius: ((high - low).length() * 0.5).max(1e-3) }
+        Self { centre: (low + high) * 0.5, radius: ((high - low).length() * 0.5).max(1e-3), margin: 0.0 }
     }
 }
 
@@ -73,7 +77,7 @@ impl Globals {
         };
         let key = towards(&KEY);
         let (eye, perspective) = camera.eye_in_head();
-        let reach = extent.radius + (camera.world_from_head() * extent.centre - camera.target).length();
+        let reach = extent.radius + extent.margin + (camera.world_from_head() * extent.centre - camera.target).length();
         let pixel = camera.height_at_target() / height;
         Self {
             clip_from_head: camera.clip_from_head(width / height, reach),
@@ -87,6 +91,7 @@ impl Globals {
             background_bottom: background[1],
             measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, skin_opacity),
             viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
+            coat: Vec4::ZERO,
         }
     }
 }
@@ -109,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_shadow_map_holds_the_whole_sphere() {
-        let extent = Extent { centre: Vec3::new(0.01, 0.02, 0.05), radius: 0.2 };
+        let extent = Extent { centre: Vec3::new(0.01, 0.02, 0.05), radius: 0.2, margin: 0.0 };
         let key = Vec3::new(-0.5, 0.6, 0.6).normalize_or_zero();
         let shadow = shadow_from_head(key, extent);
         for direction in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z, key, -key] {
@@ -125,7 +130,7 @@ mod tests {
         for view in View::NAMED {
             let mut camera = Camera::at(view, None, Lens::default());
             camera.elevation = camera.elevation.min(0.5);
-            let extent = Extent { centre: Vec3::ZERO, radius: 0.1 };
+            let extent = Extent { centre: Vec3::ZERO, radius: 0.1, margin: 0.0 };
             let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2], 1.0);
             let key = camera.world_from_head() * globals.key.truncate();
             let [right, up, _] = camera.axes_in_world();

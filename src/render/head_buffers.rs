@@ -41,17 +41,17 @@ impl HeadBuffers {
     pub(super) fn new(device: &wgpu::Device, frame: &Frame<'_>) -> Self {
         let n_vertices: usize = frame.parts.iter().map(|p| p.topology.n_vertices).sum();
         let n_bytes = n_vertices * size_of::<Vec3>();
-        let values = |label| buffer(device, label, n_bytes, wgpu::BufferUsages::VERTEX);
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
-        let computed = |label| buffer(device, label, n_bytes, usage);
+        // Storage: the card works skin out into them, and grows hair from them.
+        let storage = wgpu::BufferUsages::STORAGE;
+        let values = |label| buffer(device, label, n_bytes, wgpu::BufferUsages::VERTEX | storage);
         let n_indices: usize = frame.parts.iter().map(|p| p.topology.indices.len()).sum();
         Self {
-            positions: computed("positions"),
-            normals: computed("normals"),
+            positions: values("positions"),
+            normals: values("normals"),
             flow: values("flow"),
             colours: values("colours"),
             surface: values("surface"),
-            indices: buffer(device, "indices", n_indices * size_of::<u32>(), wgpu::BufferUsages::INDEX),
+            indices: buffer(device, "indices", n_indices * size_of::<u32>(), wgpu::BufferUsages::INDEX | storage),
             runs: Vec::new(),
             revisions: None,
             topology: frame.revisions.topology,

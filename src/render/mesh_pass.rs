@@ -49,9 +49,40 @@ pub(super) fn is_skin(material: Material) -> bool {
 pub(super) struct MeshPass {
     pipelines: [[wgpu::RenderPipeline; KINDS.len()]; 2],
     bindings: wgpu::BindGroup,
+    shared: Shared,
+}
+
+/// Shadow map and noise, each with its sampler.
+#[derive(Debug)]
+struct Shared {
+    shadow: wgpu::TextureView,
+    comparison: wgpu::Sampler,
+    noise: wgpu::TextureView,
+    repeating: wgpu::Sampler,
 }
 
 impl MeshPass {
+    /// Types of [`MeshPass::resources`].
+    pub(super) const RESOURCE_TYPES: [wgpu::BindingType; 4] = {
+        const fn texture(
+            sample_type: wgpu::TextureSampleType,
+            view_dimension: wgpu::TextureViewDimension,
+        ) -> wgpu::BindingType {
+            wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false }
+        }
+        [
+            texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+            texture(wgpu::TextureSampleType::Float { filterable: true }, wgpu::TextureViewDimension::D3),
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        ]
+    };
+
+    /// Shadow map, its sampler, noise, its sampler: for who lights something else alike.
+    pub(super) fn resources(&self) -> [wgpu::BindingResource<'_>; 4] {
+        self.shared.resources()
+    }
+
     pub(super) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -70,7 +101,9 @@ impl MeshPass {
         let pipelines = build_checked(device, ShaderFile::Mesh, || {
             [false, true].map(|clear| KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, clear)))
         })?;
-        Ok(Self { pipelines, bindings: bindings(device, queue, &own, shadow) })
+        let shared = Shared::new(device, queue, shadow);
+        let bindings = bindings(device, &own, &shared);
+        Ok(Self { pipelines, bindings, shared })
     }
 
     /// Draws every run; the globals are bound as group 0. Skin that is seen through comes last.
@@ -145,16 +178,8 @@ fn pipeline(
 }
 
 fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let texture =
-        |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
-    let types = [
-        texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
-        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
-        texture(wgpu::TextureSampleType::Float { filterable: true }, wgpu::TextureViewDimension::D3),
-        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-    ];
     let entries: Vec<_> = (0..)
-        .zip(types)
+        .zip(MeshPass::RESOURCE_TYPES)
         .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::FRAGMENT,
@@ -165,36 +190,39 @@ fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
 }
 
-fn bindings(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    layout: &wgpu::BindGroupLayout,
-    shadow: &ShadowPass,
-) -> wgpu::BindGroup {
-    let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("shadow"),
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        compare: Some(wgpu::CompareFunction::LessEqual),
-        ..Default::default()
-    });
-    let repeating = device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("noise"),
-        address_mode_u: wgpu::AddressMode::Repeat,
-        address_mode_v: wgpu::AddressMode::Repeat,
-        address_mode_w: wgpu::AddressMode::Repeat,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        ..Default::default()
-    });
-    let noise = noise::texture(device, queue);
-    let resources = [
-        wgpu::BindingResource::TextureView(&shadow.map),
-        wgpu::BindingResource::Sampler(&comparison),
-        wgpu::BindingResource::TextureView(&noise),
-        wgpu::BindingResource::Sampler(&repeating),
-    ];
+fn bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, shared: &Shared) -> wgpu::BindGroup {
     let entries: Vec<_> =
-        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+        (0..).zip(shared.resources()).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("mesh"), layout, entries: &entries })
+}
+
+impl Shared {
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, shadow: &ShadowPass) -> Self {
+        let comparison = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("shadow"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        let repeating = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("noise"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            address_mode_w: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        Self { shadow: shadow.map.clone(), comparison, noise: noise::texture(device, queue), repeating }
+    }
+
+    fn resources(&self) -> [wgpu::BindingResource<'_>; 4] {
+        [
+            wgpu::BindingResource::TextureView(&self.shadow),
+            wgpu::BindingResource::Sampler(&self.comparison),
+            wgpu::BindingResource::TextureView(&self.noise),
+            wgpu::BindingResource::Sampler(&self.repeating),
+        ]
+    }
 }

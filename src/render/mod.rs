@@ -17,6 +17,7 @@ pub mod picture;
 mod shader_source;
 mod shadow_pass;
 mod sheet;
+mod strand_pass;
 mod subdivide_pass;
 mod targets;
 mod text;

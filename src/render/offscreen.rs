@@ -57,6 +57,11 @@ impl Offscreen {
         self.painter.forget();
     }
 
+    /// Bytes uploaded for hair so far.
+    pub fn hair_bytes(&self) -> u64 {
+        self.painter.hair_bytes()
+    }
+
     /// Draws one frame of a head. `size`: width and height, pixels.
     ///
     /// Where the device allows, the picture is drawn at twice the size and halved: hair is finer than a pixel.

@@ -7,9 +7,11 @@ use super::head_buffers::{HeadBuffers, SkinBy, buffer};
 use super::mesh_pass::{MeshPass, Quality};
 use super::shader_source::{ShaderError, ShaderSources};
 use super::shadow_pass::{self, ShadowPass};
+use super::strand_pass::{self, StrandPass};
 use super::subdivide_pass::{PlanBuffers, SubdividePass};
 use super::targets::Targets;
 use super::wire_pass::{Lines, WirePass};
+use crate::anatomy::Hair;
 use crate::frame::Frame;
 
 /// What is shown of a head.
@@ -42,6 +44,8 @@ pub struct Drawing {
     pub on_card: bool,
     /// Of the skin, 0 to 1, if it is among the frame's parts.
     pub skin_opacity: f32,
+    /// How many strands of hair at most, of those that the frame has; none where the skin is seen through.
+    pub n_strands: u32,
     /// Pixels per unit of line width: 1, or the window's scale factor.
     pub pixels_per_point: f32,
 }
@@ -56,6 +60,7 @@ impl Drawing {
             light_turn: 0.0,
             on_card: false,
             skin_opacity: 1.0,
+            n_strands: 0,
             pixels_per_point: 1.0,
         }
     }
@@ -82,6 +87,8 @@ struct Passes {
     shadow: ShadowPass,
     mesh: MeshPass,
     wire: WirePass,
+    /// None on a device that cannot draw hair.
+    strand: Option<StrandPass>,
 }
 
 impl Passes {
@@ -97,6 +104,7 @@ impl Passes {
             ground: GroundPass::new(device, sources, globals)?,
             mesh: MeshPass::new(device, queue, sources, globals, &shadow, quality)?,
             wire: WirePass::new(device, sources, globals)?,
+            strand: StrandPass::new_if_able(device, queue, sources, globals)?,
             shadow,
         })
     }
@@ -153,6 +161,14 @@ impl Painter {
         self.head = None;
         self.plan = None;
         self.passes.wire.forget();
+        if let Some(strand) = &mut self.passes.strand {
+            strand.forget();
+        }
+    }
+
+    /// Bytes uploaded for hair so far.
+    pub fn hair_bytes(&self) -> u64 {
+        self.passes.strand.as_ref().map_or(0, StrandPass::n_bytes)
     }
 
     /// Uploads what changed since the last frame, and records one picture of it.
@@ -190,9 +206,17 @@ impl Painter {
         if let Some(lines) = lines {
             self.passes.wire.load(device, queue, frame, lines, drawing.pixels_per_point);
         }
-        let extent = Extent::of_box(frame.bounds());
+        let mut extent = Extent::of_box(frame.bounds());
         let edges = drawing.background.edges();
-        let globals = Globals::new(
+        let clear_skin = drawing.skin_opacity < 1.0;
+        let coat = frame.coat.filter(|_| drawing.n_strands > 0 && !clear_skin);
+        let hair = self.passes.strand.as_mut().zip(coat).map(|(pass, coat)| {
+            let size = 2.0 * extent.radius;
+            pass.load(device, queue, &coat, frame.revisions, size, drawing.n_strands, head, &self.passes.mesh);
+            extent.margin = longest(coat.hair);
+            &*pass
+        });
+        let mut globals = Globals::new(
             &drawing.camera,
             extent,
             targets.size,
@@ -201,16 +225,25 @@ impl Painter {
             edges,
             drawing.skin_opacity,
         );
+        globals.coat.x = hair.map_or(0.0, |_| strand_pass::cover(drawing.n_strands));
         queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
 
-        let clear_skin = drawing.skin_opacity < 1.0;
         self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin);
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
         self.passes.ground.draw(&mut pass);
         self.passes.mesh.draw(&mut pass, head, clear_skin);
+        if let Some(hair) = hair {
+            hair.draw(&mut pass);
+        }
         if lines.is_some() {
             self.passes.wire.draw(&mut pass);
         }
     }
+}
+
+/// The longest hair of a head, metres.
+fn longest(hair: &Hair) -> f32 {
+    let lengths = [hair.muzzle, hair.head, hair.topknot, hair.neck, hair.ear, hair.fringe, hair.beard, hair.brow];
+    1.25 * lengths.into_iter().fold(0.0, f32::max)
 }

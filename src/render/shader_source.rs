@@ -8,6 +8,8 @@ use wgpu::naga;
 pub enum ShaderFile {
     /// The block that all the others read.
     Globals,
+    /// Light and film, which all lit surfaces share.
+    Light,
     /// The head's surfaces.
     Mesh,
     /// Lines over the head.
@@ -18,6 +20,8 @@ pub enum ShaderFile {
     Shadow,
     /// A plan evaluated on the card.
     Subdivide,
+    /// Hair.
+    Strand,
 }
 
 /// A shader that does not compile, with the place to look at.
@@ -36,23 +40,39 @@ pub struct ShaderError {
 
 impl ShaderFile {
     /// Every file.
-    pub const ALL: [Self; 6] = [Self::Globals, Self::Mesh, Self::Wire, Self::Background, Self::Shadow, Self::Subdivide];
+    pub const ALL: [Self; 8] = [
+        Self::Globals,
+        Self::Light,
+        Self::Mesh,
+        Self::Wire,
+        Self::Background,
+        Self::Shadow,
+        Self::Subdivide,
+        Self::Strand,
+    ];
 
     /// File name inside `shaders/`.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Globals => "globals.wgsl",
+            Self::Light => "light.wgsl",
             Self::Mesh => "mesh.wgsl",
             Self::Wire => "wire.wgsl",
             Self::Background => "background.wgsl",
             Self::Shadow => "shadow.wgsl",
             Self::Subdivide => "subdivide.wgsl",
+            Self::Strand => "strand.wgsl",
         }
     }
 
     /// Whether the block of globals belongs to it: to all that draw.
     pub fn reads_globals(self) -> bool {
         !matches!(self, Self::Globals | Self::Subdivide)
+    }
+
+    /// Whether light and film belong to it.
+    fn reads_light(self) -> bool {
+        matches!(self, Self::Mesh | Self::Strand)
     }
 }
 
@@ -67,11 +87,13 @@ impl Default for ShaderSources {
     fn default() -> Self {
         let texts = [
             include_str!("../../shaders/globals.wgsl"),
+            include_str!("../../shaders/light.wgsl"),
             include_str!("../../shaders/mesh.wgsl"),
             include_str!("../../shaders/wire.wgsl"),
             include_str!("../../shaders/background.wgsl"),
             include_str!("../../shaders/shadow.wgsl"),
             include_str!("../../shaders/subdivide.wgsl"),
+            include_str!("../../shaders/strand.wgsl"),
         ];
         Self { texts: texts.map(str::to_owned) }
     }
@@ -88,13 +110,12 @@ impl ShaderSources {
         self.texts[file as usize] = text;
     }
 
-    /// A file as it is compiled: the block of globals comes behind it, so that its own lines keep their numbers.
+    /// A file as it is compiled: what it shares with others comes behind it, so that its own lines keep their numbers.
     fn composed(&self, file: ShaderFile) -> String {
-        if file.reads_globals() {
-            format!("{}\n{}", self.text(file), self.text(ShaderFile::Globals))
-        } else {
-            self.text(file).to_owned()
-        }
+        let light = file.reads_light().then_some(ShaderFile::Light);
+        let globals = file.reads_globals().then_some(ShaderFile::Globals);
+        let files = [Some(file), light, globals].into_iter().flatten();
+        files.map(|f| self.text(f)).collect::<Vec<_>>().join("\n")
     }
 
     /// Parses and validates one file without a device.
@@ -102,8 +123,11 @@ impl ShaderSources {
         if file.reads_globals() {
             self.check(ShaderFile::Globals)?;
         }
+        if file.reads_light() {
+            self.check(ShaderFile::Light)?;
+        }
         let source = &self.composed(file);
-        // Something left open at the end is noticed in the globals behind it, which are right.
+        // Something left open at the end is noticed in what comes behind it, which is right.
         let n_lines = self.text(file).lines().count().max(1) as u32;
         let error = |place: Option<naga::SourceLocation>, message: String| ShaderError {
             file: file.file_name(),

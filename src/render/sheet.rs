@@ -29,6 +29,8 @@ pub struct Sheet {
     pub skin_opacity: f32,
     /// Surfaces, or lines over them: surfaces unless it is set.
     pub shading: Shading,
+    /// Strands of hair on a head at most: none unless it is set.
+    pub n_strands: u32,
     /// Heads beside each other, at least 1: 1 unless it is set.
     pub heads_across: u32,
     distance: f32,
@@ -55,6 +57,7 @@ impl Sheet {
             background,
             skin_opacity: 1.0,
             shading: Shading::Shaded,
+            n_strands: 0,
             heads_across: 1,
             distance: 0.0,
             rows: Vec::new(),
@@ -90,8 +93,8 @@ impl Sheet {
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let (background, skin_opacity, shading) = (self.background, self.skin_opacity, self.shading);
-            let drawing = Drawing { background, skin_opacity, shading, ..Drawing::new(camera) };
+            let Self { background, skin_opacity, shading, n_strands, .. } = *self;
+            let drawing = Drawing { background, skin_opacity, shading, n_strands, ..Drawing::new(camera) };
             cells.push(offscreen.draw(frame, &drawing, self.cell)?);
         }
         self.rows.push((name.to_owned(), cells));

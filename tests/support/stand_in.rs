@@ -92,6 +92,7 @@ impl StandIn {
             control_indices: &self.control_indices,
             plan: None,
             whiskers: &[],
+            coat: None,
             revisions: self.revisions,
         }
     }

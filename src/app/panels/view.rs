@@ -1,6 +1,7 @@
 //! How the head is shown, and the line of numbers below it.
 
 use crate::app::state::{EditorState, MOST_LEVEL};
+use crate::coat;
 use crate::render::{Lens, Shading, View};
 
 /// Shading, level, named views, lens.
@@ -51,6 +52,8 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         ui.checkbox(&mut layers.mouth, "mouth").on_hover_text("Gums, palate, floor of the mouth");
         ui.checkbox(&mut layers.tongue, "tongue").on_hover_text("Tongue");
         ui.separator();
+        hair(state, ui);
+        ui.separator();
         let taken = ui.selectable_label(state.measures.is_open, "Measurements");
         if taken.on_hover_text("What a vet would measure on this head (M)").clicked() {
             state.measures.is_open = !state.measures.is_open;
@@ -59,6 +62,18 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             state.shows_keys = !state.shows_keys;
         }
     });
+}
+
+/// How many strands of hair.
+fn hair(state: &mut EditorState, ui: &mut egui::Ui) {
+    let label = ui.label("Hair");
+    let name = coat::LEVELS.iter().find(|(_, n)| *n == state.n_strands as usize).map_or("other", |(name, _)| *name);
+    let choice = egui::ComboBox::from_id_salt("hair").selected_text(name).width(60.0).show_ui(ui, |ui| {
+        for (name, n) in coat::LEVELS {
+            ui.selectable_value(&mut state.n_strands, n as u32, name);
+        }
+    });
+    choice.response.labelled_by(label.id).on_hover_text("Strands of hair on the head");
 }
 
 /// Triangles and times at the right, the last message at the left.

@@ -1,0 +1,48 @@
+// The studio's light and the film it falls on: what every lit surface shares, put behind its shader.
+
+// Light, linear.
+const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
+const FILL: vec3<f32> = vec3<f32>(0.27, 0.34, 0.44);
+const RIM: vec3<f32> = vec3<f32>(1.75, 1.80, 1.95);
+const SKY: vec3<f32> = vec3<f32>(0.37, 0.42, 0.50);
+const GROUND: vec3<f32> = vec3<f32>(0.17, 0.14, 0.11);
+
+// A rotation without symmetry, so that the noise's lattice lies along no axis of the head.
+const SKEW: mat3x3<f32> = mat3x3<f32>(
+    vec3<f32>(0.7268, 0.4423, -0.5254),
+    vec3<f32>(-0.1612, 0.8522, 0.4977),
+    vec3<f32>(0.6678, -0.2795, 0.6899),
+);
+
+fn unit(v: vec3<f32>, instead: vec3<f32>) -> vec3<f32> {
+    let l = dot(v, v);
+    if l < 1e-12 {
+        return instead;
+    }
+    return v * inverseSqrt(l);
+}
+
+fn sky(direction: vec3<f32>) -> vec3<f32> {
+    return mix(GROUND, SKY, smoothstep(-0.9, 0.9, dot(direction, globals.up.xyz)));
+}
+
+// Lambert's cosine, let past the terminator by `wrap`, with its energy kept.
+fn wrapped(normal: vec3<f32>, light: vec3<f32>, wrap: f32) -> f32 {
+    return max(dot(normal, light) + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap));
+}
+
+// A shoulder that starts late and never clips; the toe keeps dark coats dark. Colours are bent by their brightest
+// channel in part, so that pale coats keep their hue.
+fn film(light: vec3<f32>) -> vec3<f32> {
+    let x = max(light, vec3<f32>(0.0)) * 0.62;
+    let each = x * (1.0 + x * 0.09) / (1.0 + x * 0.78);
+    let peak = max(max(x.r, x.g), max(x.b, 1e-5));
+    let bent = peak * (1.0 + peak * 0.09) / (1.0 + peak * 0.78);
+    return clamp(mix(each, x * bent / peak, 0.5), vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+fn encoded(linear: vec3<f32>) -> vec3<f32> {
+    let low = linear * 12.92;
+    let high = 1.055 * pow(max(linear, vec3<f32>(1e-5)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, linear <= vec3<f32>(0.0031308));
+}

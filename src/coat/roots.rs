@@ -1,0 +1,91 @@
+//! Hair roots on the refined skin, bound to triangles, so that they follow every breed and expression.
+//!
+//! A root's triangle is found by a number that walks through the triangles' shares by the golden ratio: any first part of
+//! such a walk is spread evenly (Weyl 1916), so that fewer hairs are simply the first ones.
+
+use crate::anatomy::Region;
+use crate::math::ops;
+use crate::math::rng::Rng;
+use crate::rig::Rig;
+use crate::subdiv::{Plan, evaluate_once};
+use glam::Vec3;
+
+/// The largest number of roots that is made.
+pub const MAX_STRANDS: usize = 500_000;
+
+/// The fractional part of the golden ratio.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Where every walk begins. Another number gives other hairs, not better ones.
+const SEED: u64 = 0x4841_4952;
+
+/// Below this density at a corner a triangle bears no hair: margins of lips, lids and nose stay bare.
+const LEAST: f32 = 0.12;
+
+/// One hair's place.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Root {
+    /// Which triangle of the skin, in the order in which it is drawn.
+    pub triangle: u32,
+    /// Weights of the second and the third corner; with that of the first they sum to one and none is negative.
+    pub weights: [f32; 2],
+    /// What makes this hair differ from its neighbours.
+    pub seed: u32,
+}
+
+/// How densely a region is haired, relative to the cheek. Short hair needs more of it to cover.
+fn density(region: Region) -> f32 {
+    use Region::*;
+    match region {
+        Nose | Nostril | Lid | Mouth => 0.0,
+        UpperLip | LowerLip => 0.7,
+        EarInner => 0.35,
+        Bridge | MuzzleSide | WhiskerPad | Stop | Blaze | Orbit => 1.7,
+        Chin | LowerJaw | Brow => 1.4,
+        Forehead | Crown | Temple | Cheek => 1.2,
+        EarOuter | EarEdge => 1.1,
+        Throat => 0.9,
+        Nape | NeckSide | NeckFront => 0.7,
+    }
+}
+
+/// The first `n` roots (at most [`MAX_STRANDS`]) on the skin of a plan. `triangles`: three vertices each, as they are drawn;
+/// `is_haired`: one for each triangle. Fewer, or none, where no triangle bears hair.
+///
+/// Shares are by the area of the base head, so that they depend on the topology alone.
+pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool], n: usize) -> Vec<Root> {
+    let half = rig.half();
+    let base: Vec<Vec3> = half.base.iter().map(|&p| Vec3::from(p)).collect();
+    let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
+    half.unfold(&base, &mut control);
+    let (skin, _) = evaluate_once(plan, &control);
+    let control: Vec<Vec3> = half.whole_regions().into_iter().map(|r| Vec3::new(density(r), 0.0, 0.0)).collect();
+    let (densities, _) = evaluate_once(plan, &control);
+
+    let mut ends = Vec::with_capacity(triangles.len());
+    let mut total = 0.0_f64;
+    for (corners, &haired) in triangles.iter().zip(is_haired) {
+        let [a, b, c] = corners.map(|v| skin[v as usize]);
+        let [d, e, f] = corners.map(|v| densities[v as usize].x);
+        if haired && d.min(e).min(f) >= LEAST {
+            let area = (b - a).cross(c - a).length() * 0.5;
+            total += f64::from(area) * f64::from(d + e + f) / 3.0;
+        }
+        ends.push(total);
+    }
+    if !(total.is_finite() && total > 0.0) {
+        return Vec::new();
+    }
+    let mut rng = Rng::new(SEED);
+    let mut walk = rng.unit_f64();
+    let make = |_| {
+        walk = (walk + GOLDEN).fract();
+        let wanted = walk * total;
+        let triangle = ends.partition_point(|&end| end <= wanted).min(ends.len() - 1) as u32;
+        // Evenly over the triangle: Osada, Funkhouser, Chazelle and Dobkin 2002, "Shape distributions", equation 1.
+        let (s, t) = (ops::sqrt(rng.unit_f32()), rng.unit_f32());
+        Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32() }
+    };
+    (0..n.min(MAX_STRANDS)).map(make).collect()
+}
