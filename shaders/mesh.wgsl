@@ -188,7 +188,7 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     let sideways = cross(p.normal, lean);
     p.normal = unit(p.normal + sideways * (fine.y * 0.26 + locks.y * 0.22) + lean * (locks.z * 0.10), p.normal);
     let shade = fine.x * 0.18 + locks.x * 0.15 + mottle * 0.08;
-    let albedo = colour * exp(shade) * (1.0 - 0.5 * cover);
+    let albedo = colour * exp(shade) * (1.0 - 0.38 * cover);
 
     let facing = clamp(dot(smooth_normal, p.view), 0.0, 1.0);
     var light = albedo * diffuse(p, mix(0.2, 0.45, fur));

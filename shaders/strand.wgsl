@@ -83,9 +83,9 @@ fn point(s: Strand, t: f32) -> vec3<f32> {
     off *= s.length;
     off -= globals.up.xyz * (6.0 * (1.0 - 0.7 * wire) * s.length * s.length * t * t);
     // Rings whose width grows with the hair's length.
-    let turns = clamp(s.length / 0.014, 0.4, 2.2);
+    let turns = clamp(s.length / 0.016, 0.4, 1.9);
     let turn = s.phase.x + turns * t * 6.2831853;
-    let ring = style.nature.x * min(0.0045, 0.3 * s.length);
+    let ring = style.nature.x * min(0.0055, 0.3 * s.length);
     off += (s.across * (cos(turn) - cos(s.phase.x)) + s.normal * (sin(turn) - sin(s.phase.x))) * ring;
     // What hangs lies on the head, which bends away from under it.
     let height = dot(off, s.normal);
@@ -115,9 +115,9 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     let n = unit(s.normal + heading * 0.15, s.normal);
     let key = globals.key.xyz;
     // Deep in the coat it is dark.
-    let open = (1.0 - 0.9 * hidden) * mix(0.55, 1.0, t);
-    let fibre = mix(0.75, 1.1, sine(dot(heading, key)));
-    var light = KEY * wrapped(n, key, 0.40) * fibre * lit * mix(0.75, 1.0, t);
+    let open = (1.0 - 0.9 * hidden) * mix(0.65, 1.1, t);
+    let fibre = mix(0.85, 1.2, sine(dot(heading, key)));
+    var light = KEY * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
     light += FILL * wrapped(n, globals.fill.xyz, 0.5) * open;
     light += RIM * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
     light += sky(n) * open;
@@ -222,9 +222,10 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     s.along = unit(flat_flow + cross(s.normal, flat_flow) * swing, flat_flow);
     s.across = cross(s.normal, s.along);
     s.lift = (0.14 + 0.70 * style.nature.z) * grown.y + 0.16 * lock.y + (0.10 + 0.20 * wire) * signed.z;
-    s.lift = max(s.lift, 0.06);
-    s.phase = vec2<f32>(lock.z * 4.0 + 0.6 * signed.w, random.w * 6.2831853);
-    s.root = skin - s.normal * 0.0003;
+    // Short hair in a hollow would not come out of the skin.
+    s.lift = max(s.lift, 0.06) + 0.40 * (1.0 - smoothstep(0.0015, 0.0065, s.length));
+    s.phase = vec2<f32>(noise(skin + 0.53, 0.011).z * 5.0 + 0.5 * signed.w, random.w * 6.2831853);
+    s.root = skin - s.normal * min(0.0003, 0.06 * s.length);
 
     let corner = index % (2u * POINTS);
     let t = f32(corner >> 1u) / f32(POINTS - 1u);
@@ -233,8 +234,9 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
 
     // Colour.
     var albedo = base * (1.0 + 0.16 * signed.w + 0.14 * lock.w) * exp(0.5 * mottle * 0.6);
-    albedo = select(albedo, mix(albedo * 1.35, vec3<f32>(0.55), 0.06), other.y < 0.05);
-    albedo *= mix(0.60, 1.13, t);
+    albedo = select(albedo, mix(albedo * 1.30, vec3<f32>(0.55), 0.025), other.y < 0.05);
+    // Short hair is too thin a coat to be dark at its roots.
+    albedo *= mix(mix(0.85, 0.62, smoothstep(0.002, 0.015, s.length)), 1.18, t);
     let reach = skin + s.normal * (0.004 * globals.measures.x + 0.5 * s.length * s.lift);
     let lit = shadow(reach, other);
     let light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);

@@ -144,8 +144,9 @@ impl Turn {
 }
 
 fn follow(state: &mut EditorState, frame: &Frame<'_>, [width, height]: [u32; 2]) {
-    let points = frame.body().flat_map(|p| p.positions);
-    state.fit_camera(points, width as f32 / height as f32);
+    if state.wants_fit {
+        state.fit_camera(frame.outline().iter(), width as f32 / height as f32);
+    }
     state.n_triangles = frame.n_triangles();
 }
 

@@ -54,7 +54,7 @@ pub(super) fn camera(
     [width, height]: [u32; 2],
 ) -> Camera {
     let mut camera = Camera::at(view, pitch, lens);
-    camera.fit(frame.body().flat_map(|p| p.positions), width as f32 / height as f32, MARGIN);
+    camera.fit(frame.outline().iter(), width as f32 / height as f32, MARGIN);
     camera
 }
 

@@ -1,5 +1,6 @@
 //! Length and direction of hair at every control vertex, by its region.
 
+use super::{borders, is_bare};
 use crate::anatomy::{Hair, Region};
 use crate::mesh::VertexId;
 use crate::rig::Rig;
@@ -8,9 +9,14 @@ use glam::{Vec3, vec3};
 /// Rounds of averaging with the neighbours, so that a short place goes over into a long one softly.
 const ROUNDS: usize = 2;
 /// Hair beside what is bare, as a part of what it would be.
-const BESIDE_BARE: f32 = 0.45;
+const BESIDE_BARE: f32 = 0.8;
+/// Hair on the rim of the nose pad and on the fold of the lids, as a part of the muzzle's, and at most, metres.
+const BORDER: (f32, f32) = (0.4, 0.002);
 /// The longest hair around the eyes, metres: beyond it no dog would see.
 const AROUND_EYES: f32 = 0.007;
+
+/// The longest hair between the eyes, metres, where it lies backwards.
+const BEFORE_EYES: f32 = 0.022;
 
 /// Length in metres of a region's hair, and how far it stands off the skin, as a factor.
 fn growth(hair: &Hair, region: Region) -> (f32, f32) {
@@ -19,14 +25,14 @@ fn growth(hair: &Hair, region: Region) -> (f32, f32) {
     let mean = |a: f32, b: f32| 0.5 * (a + b);
     match region {
         Nose | Nostril | Lid | Mouth => (0.0, 0.0),
-        UpperLip | LowerLip => ((0.5 * muzzle).min(0.006), 0.7),
-        Bridge => (0.8 * muzzle, 0.7),
+        UpperLip | LowerLip => ((0.9 * muzzle).min(0.006), 0.7),
+        Bridge => (muzzle, 0.7),
         MuzzleSide => (mean(muzzle, beard), 0.8),
         WhiskerPad => (muzzle + 0.3 * (beard - muzzle), 0.8),
         Chin | LowerJaw => (beard, 0.9),
-        Stop | Blaze => (0.9 * mean(muzzle, head), 0.8),
+        Stop | Blaze => (mean(muzzle, head).min(BEFORE_EYES), 0.8),
         Brow => (brow, 1.1),
-        Orbit => ((0.25 * head).min(AROUND_EYES), 0.6),
+        Orbit => ((0.25 * head).clamp(head.min(0.0025), AROUND_EYES), 0.7),
         Forehead => (mean(head, topknot), 0.9),
         Crown => (topknot, 1.0),
         Temple => (head, 1.0),
@@ -65,17 +71,20 @@ fn comb(hair: &Hair, region: Region) -> Vec3 {
 }
 
 /// Grooms a breed: for every control vertex of the whole mesh (`growths` and `combs`: one each) what
-/// [`Coat`](super::Coat) has for the vertices of the refined skin. Bare regions have length 0. `occlusion`: how deep each
+/// [`Coat`](super::Coat) has for the vertices of the refined skin. Bare regions have length 0, but for their rims. `occlusion`: how deep each
 /// control vertex is hidden, 0 to 1.
 pub fn groom(rig: &Rig, hair: &Hair, occlusion: impl Fn(usize) -> f32, growths: &mut [Vec3], combs: &mut [Vec3]) {
     let regions = rig.half().whole_regions();
     let n_half = rig.half().n_half();
-    let is_bare = |v: usize| growth(hair, regions[v]).0 <= 0.0;
+    let borders = borders(rig, &regions);
+    let border = (BORDER.0 * hair.muzzle).min(BORDER.1);
+    let is_bare = |v: usize| is_bare(regions[v]);
     for (v, &region) in regions.iter().enumerate() {
         let (length, stand) = growth(hair, region);
         let beside_bare = rig.mesh().ring(VertexId(v as u32)).any(|u| is_bare(u.0 as usize));
         let shorter = if beside_bare { BESIDE_BARE } else { 1.0 };
-        growths[v] = vec3(length * shorter, stand, occlusion(v));
+        let (length, stand) = if borders[v] { (border, 0.7) } else { (length * shorter, stand) };
+        growths[v] = vec3(length, stand, occlusion(v));
         let side = match v {
             v if v >= n_half => -1.0,
             v if rig.half().midline[v] => 0.0,

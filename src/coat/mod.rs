@@ -9,8 +9,22 @@ mod roots;
 pub use groom::groom;
 pub use roots::{MAX_STRANDS, Root, roots};
 
-use crate::anatomy::Hair;
+use crate::anatomy::{Hair, Region};
+use crate::mesh::VertexId;
+use crate::rig::Rig;
 use glam::Vec3;
+
+/// Whether a region bears no hair.
+fn is_bare(region: Region) -> bool {
+    matches!(region, Region::Nose | Region::Nostril | Region::Lid | Region::Mouth)
+}
+
+/// For each control vertex whether it is bare and stands beside one that is not. The nose pad's rim and the fold of the
+/// lids are such: hair comes up to them.
+fn borders(rig: &Rig, regions: &[Region]) -> Vec<bool> {
+    let beside_hair = |v: usize| rig.mesh().ring(VertexId(v as u32)).any(|u| !is_bare(regions[u.0 as usize]));
+    regions.iter().enumerate().map(|(v, &region)| is_bare(region) && beside_hair(v)).collect()
+}
 
 /// Names of numbers of strands.
 pub const LEVELS: [(&str, usize); 4] = [("off", 0), ("low", 10_000), ("medium", 90_000), ("high", 250_000)];

@@ -3,6 +3,7 @@
 //! A root's triangle is found by a number that walks through the triangles' shares by the golden ratio: any first part of
 //! such a walk is spread evenly (Weyl 1916), so that fewer hairs are simply the first ones.
 
+use super::borders;
 use crate::anatomy::Region;
 use crate::math::ops;
 use crate::math::rng::Rng;
@@ -18,6 +19,9 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Where every walk begins. Another number gives other hairs, not better ones.
 const SEED: u64 = 0x4841_4952;
+
+/// Density on the rim of the nose pad and on the fold of the lids.
+const BORDER: f32 = 2.0;
 
 /// Below this density at a corner a triangle bears no hair: margins of lips, lids and nose stay bare.
 const LEAST: f32 = 0.12;
@@ -39,10 +43,10 @@ fn density(region: Region) -> f32 {
     use Region::*;
     match region {
         Nose | Nostril | Lid | Mouth => 0.0,
-        UpperLip | LowerLip => 0.7,
-        EarInner => 0.35,
-        Bridge | MuzzleSide | WhiskerPad | Stop | Blaze | Orbit => 1.7,
-        Chin | LowerJaw | Brow => 1.4,
+        EarInner => 0.5,
+        WhiskerPad | UpperLip | LowerLip => 3.0,
+        Bridge | MuzzleSide | Stop | Blaze | Orbit => 2.2,
+        Chin | LowerJaw | Brow => 2.0,
         Forehead | Crown | Temple | Cheek => 1.2,
         EarOuter | EarEdge => 1.1,
         Throat => 0.9,
@@ -60,7 +64,11 @@ pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool],
     let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
     half.unfold(&base, &mut control);
     let (skin, _) = evaluate_once(plan, &control);
-    let control: Vec<Vec3> = half.whole_regions().into_iter().map(|r| Vec3::new(density(r), 0.0, 0.0)).collect();
+    let regions = half.whole_regions();
+    // Up to the rim of what is bare, whose own triangles have another material.
+    let borders = borders(rig, &regions);
+    let of_vertex = regions.iter().zip(borders).map(|(&r, border)| if border { BORDER } else { density(r) });
+    let control: Vec<Vec3> = of_vertex.map(|d| Vec3::new(d, 0.0, 0.0)).collect();
     let (densities, _) = evaluate_once(plan, &control);
 
     let mut ends = Vec::with_capacity(triangles.len());

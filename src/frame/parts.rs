@@ -115,7 +115,7 @@ pub struct Frame<'a> {
     pub plan: Option<&'a Plan>,
     /// Whiskers, the left ones, then their mirror images; empty where they are not shown.
     pub whiskers: &'a [Whisker],
-    /// Hair on the first part; none where it has not been asked for.
+    /// Hair on the first part; none where that is no skin. Its roots are as many as have been asked for.
     pub coat: Option<Coat<'a>>,
     /// What has changed since the last frame.
     pub revisions: Revisions,
@@ -128,6 +128,18 @@ impl<'a> Frame<'a> {
         let is_whisker = |part: &Part<'_>| part.topology.ranges.iter().all(|r| r.material == Material::Whisker);
         let all = self.parts.iter().all(is_whisker);
         self.parts.iter().filter(move |part| all || !is_whisker(part))
+    }
+
+    /// Points around which a picture is framed, metres: the [body](Frame::body), and about how far its hair reaches.
+    pub fn outline(&self) -> Vec<Vec3> {
+        let mut points: Vec<Vec3> = self.body().flat_map(|p| p.positions).copied().collect();
+        if let (Some(coat), Some(skin)) = (&self.coat, self.parts.first()) {
+            for (v, growth) in coat.growth.iter().enumerate() {
+                let along = skin.flow[v].normalize_or_zero() * 0.3 + skin.normals[v] * 0.5;
+                points.push(skin.positions[v] + along * growth.x);
+            }
+        }
+        points
     }
 
     /// Lowest and highest corner of the [body](Frame::body), metres.

@@ -68,7 +68,7 @@ pub struct Pipeline {
     revisions: Revisions,
 }
 
-/// What frames tell of hair; empty until hair is asked for.
+/// What frames tell of hair; no roots until hair is asked for.
 #[derive(Default)]
 struct HairValues {
     /// How many strands are wanted.
@@ -206,15 +206,11 @@ impl Pipeline {
     }
 
     /// How many strands of hair the next frames have, at most [`coat::MAX_STRANDS`]; at first none. They cost nothing a
-    /// frame, but something at each change of the level and of the look.
+    /// frame, but something at each change of the level.
     pub fn set_hair(&mut self, n_strands: usize) {
-        let had_none = self.hair.n_strands == 0;
         if n_strands != self.hair.n_strands {
             self.hair.n_strands = n_strands;
             self.root_hair();
-        }
-        if had_none && n_strands > 0 {
-            self.look = None;
         }
     }
 
@@ -281,7 +277,7 @@ impl Pipeline {
 
     fn coat(&self) -> Option<Coat<'_>> {
         let HairValues { roots, growth, comb, .. } = &self.hair;
-        let look = self.look.as_ref().filter(|_| !roots.is_empty() && self.layers.skin > 0.0)?;
+        let look = self.look.as_ref().filter(|_| self.layers.skin > 0.0)?;
         Some(Coat { roots, growth, comb, hair: &look.hair })
     }
 
@@ -325,19 +321,17 @@ impl Pipeline {
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_attribute(&self.plan, &self.control_colours, &mut skin.colours);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_surface, &mut skin.surface);
-        if self.hair.n_strands > 0 {
-            let HairValues { control_growth, control_comb, growth, comb, .. } = &mut self.hair;
-            for values in [&mut *control_growth, &mut *control_comb] {
-                values.resize(self.rig.mesh().n_vertices(), Vec3::ZERO);
-            }
-            for values in [&mut *growth, &mut *comb] {
-                values.resize(self.plan.n_vertices(), Vec3::ZERO);
-            }
-            let surface = &self.control_surface;
-            coat::groom(&self.rig, &look.hair, |v| surface[v].z, control_growth, control_comb);
-            self.evaluator.evaluate_attribute(&self.plan, control_growth, growth);
-            self.evaluator.evaluate_attribute(&self.plan, control_comb, comb);
+        let HairValues { control_growth, control_comb, growth, comb, .. } = &mut self.hair;
+        for values in [&mut *control_growth, &mut *control_comb] {
+            values.resize(self.rig.mesh().n_vertices(), Vec3::ZERO);
         }
+        for values in [&mut *growth, &mut *comb] {
+            values.resize(self.plan.n_vertices(), Vec3::ZERO);
+        }
+        let surface = &self.control_surface;
+        coat::groom(&self.rig, &look.hair, |v| surface[v].z, control_growth, control_comb);
+        self.evaluator.evaluate_attribute(&self.plan, control_growth, growth);
+        self.evaluator.evaluate_attribute(&self.plan, control_comb, comb);
         cap.colours.fill(look.base * 0.35);
         for eye in [left, right] {
             eyeball::colours(look.iris, &mut eye.colours);

@@ -209,7 +209,7 @@ impl Painter {
         let mut extent = Extent::of_box(frame.bounds());
         let edges = drawing.background.edges();
         let clear_skin = drawing.skin_opacity < 1.0;
-        let coat = frame.coat.filter(|_| drawing.n_strands > 0 && !clear_skin);
+        let coat = frame.coat.filter(|c| drawing.n_strands.min(c.roots.len() as u32) > 0 && !clear_skin);
         let hair = self.passes.strand.as_mut().zip(coat).map(|(pass, coat)| {
             let size = 2.0 * extent.radius;
             pass.load(device, queue, &coat, frame.revisions, size, drawing.n_strands, head, &self.passes.mesh);

@@ -74,8 +74,7 @@ impl Sheet {
 
     fn fitted(&self, view: View, frame: &Frame<'_>) -> Camera {
         let mut camera = Camera::at(view, self.pitch, self.lens);
-        let points = frame.body().flat_map(|p| p.positions);
-        camera.fit(points, self.cell[0] as f32 / self.cell[1] as f32, MARGIN);
+        camera.fit(frame.outline().iter(), self.cell[0] as f32 / self.cell[1] as f32, MARGIN);
         camera
     }
 
