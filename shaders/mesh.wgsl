@@ -13,6 +13,7 @@ override kind: u32 = 0u;
 override draft: bool = false;
 // Blend with what lies behind, by the skin's opacity; edges, where one looks along it, hide more.
 override seen_through: bool = false;
+const COAT: u32 = 0u;
 const NOSE: u32 = 1u;
 const LIP: u32 = 2u;
 const MOUTH: u32 = 3u;
@@ -64,7 +65,8 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
     let size = globals.measures.x;
     let slope = 1.0 - max(dot(normal, globals.key.xyz), 0.0);
     let place = globals.shadow_from_head * vec4<f32>(position + normal * size * (0.002 + 0.006 * slope), 1.0);
-    if draft {
+    // Under hair, too, where the strands have soft shadows.
+    if draft || (kind == COAT && globals.coat.x >= 1.0) {
         return textureSampleCompareLevel(shadow_map, shadow_sampler, place.xy, place.z - 0.0025);
     }
     var sum = 0.0;

@@ -35,7 +35,7 @@ struct Root {
 @group(1) @binding(12) var noise_sampler: sampler;
 
 // As in strand_pass.rs.
-const POINTS: u32 = 7u;
+const POINTS: u32 = 6u;
 const BATCH: u32 = 128u;
 
 // Hair shorter than this is none, metres.
@@ -83,7 +83,7 @@ fn point(s: Strand, t: f32) -> vec3<f32> {
     off *= s.length;
     off -= globals.up.xyz * (6.0 * (1.0 - 0.7 * wire) * s.length * s.length * t * t);
     // Rings whose width grows with the hair's length.
-    let turns = clamp(s.length / 0.016, 0.4, 1.9);
+    let turns = clamp(s.length / 0.018, 0.4, 1.6);
     let turn = s.phase.x + turns * t * 6.2831853;
     let ring = style.nature.x * min(0.0055, 0.3 * s.length);
     off += (s.across * (cos(turn) - cos(s.phase.x)) + s.normal * (sin(turn) - sin(s.phase.x))) * ring;
@@ -188,7 +188,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     }
     // The head itself hides short hair on its far side.
     let facing = dot(s.normal, view);
-    if s.length < SHORTEST || facing < select(-0.35, -0.85, s.length > 0.015) {
+    if s.length < SHORTEST || facing < select(-0.25, -0.80, s.length > 0.012) {
         return nothing();
     }
     var lies = unit(mixed(
@@ -210,10 +210,10 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
         root,
     ), vec3<f32>(0.0));
 
-    // Locks of half a centimetre, waves of three, mottles of one and two.
+    // Locks of half a centimetre, waves of three, mottles between.
     let lock = noise(skin, 0.005);
     let wave = noise(skin, 0.030);
-    let mottle = noise(skin + 0.37, 0.010).x * 0.45 + noise(skin + 0.71, 0.020).y * 0.55;
+    let mottle = noise(skin + 0.37, 0.014);
     let signed = random * 2.0 - 1.0;
     let clump = 0.6 + 1.2 * style.nature.y;
     let wire = style.nature.w;
@@ -224,7 +224,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     s.lift = (0.14 + 0.70 * style.nature.z) * grown.y + 0.16 * lock.y + (0.10 + 0.20 * wire) * signed.z;
     // Short hair in a hollow would not come out of the skin.
     s.lift = max(s.lift, 0.06) + 0.40 * (1.0 - smoothstep(0.0015, 0.0065, s.length));
-    s.phase = vec2<f32>(noise(skin + 0.53, 0.011).z * 5.0 + 0.5 * signed.w, random.w * 6.2831853);
+    s.phase = vec2<f32>(mottle.z * 5.0 + 0.5 * signed.w, random.w * 6.2831853);
     s.root = skin - s.normal * min(0.0003, 0.06 * s.length);
 
     let corner = index % (2u * POINTS);
@@ -233,7 +233,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     let heading = unit(point(s, t + 0.04) - point(s, t - 0.04), s.along);
 
     // Colour.
-    var albedo = base * (1.0 + 0.16 * signed.w + 0.14 * lock.w) * exp(0.5 * mottle * 0.6);
+    var albedo = base * (1.0 + 0.16 * signed.w + 0.14 * lock.w) * exp(0.24 * mottle.x);
     albedo = select(albedo, mix(albedo * 1.30, vec3<f32>(0.55), 0.025), other.y < 0.05);
     // Short hair is too thin a coat to be dark at its roots.
     albedo *= mix(mix(0.85, 0.62, smoothstep(0.002, 0.015, s.length)), 1.18, t);

@@ -232,10 +232,11 @@ impl Painter {
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
         self.passes.ground.draw(&mut pass);
-        self.passes.mesh.draw(&mut pass, head, clear_skin);
+        // Hair first: what it hides of the skin, which is dearer, is not shaded.
         if let Some(hair) = hair {
             hair.draw(&mut pass);
         }
+        self.passes.mesh.draw(&mut pass, head, clear_skin);
         if lines.is_some() {
             self.passes.wire.draw(&mut pass);
         }

@@ -9,10 +9,10 @@ use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked
 use super::targets::{COLOUR, DEPTH, SAMPLES};
 use crate::coat::Coat;
 use crate::frame::Revisions;
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
 /// Points of a strand; `strand.wgsl` knows it too.
-const POINTS: u16 = 7;
+const POINTS: u16 = 6;
 /// Strands drawn by one instance, so that instances are not too small for the card; `strand.wgsl` knows it too.
 const BATCH: u16 = 128;
 /// Buffers that the vertex stage reads.
@@ -143,8 +143,8 @@ impl StrandPass {
         let storage = |label, n_bytes| buffer(device, label, n_bytes, wgpu::BufferUsages::STORAGE);
         let roots = storage("roots", size_of_val(coat.roots));
         self.write(queue, &roots, bytemuck::cast_slice(coat.roots));
-        let growth = storage("growth", coat.growth.len() * size_of::<Vec3>());
-        let comb = storage("comb", coat.comb.len() * size_of::<Vec3>());
+        let growth = storage("growth", size_of_val(coat.growth));
+        let comb = storage("comb", size_of_val(coat.comb));
         let buffers = [
             &self.style,
             &roots,
