@@ -112,13 +112,13 @@ fn shut(h: &Handles, rings: &HalfRings, hinge: &Hinge, rest: &[Vec3], at: &mut [
         [upper + (lower - upper) * UPPER; 2]
     });
     for round in 0..=ROUNDS {
-        for k in 1..6 {
-            let line = 0.5 * (meeting[k][0] + meeting[k][1]);
+        for (k, m) in meeting.iter().enumerate().skip(1) {
+            let line = 0.5 * (m[0] + m[1]);
             for (side, k_of) in [k, 12 - k].into_iter().enumerate() {
                 let [of, er, ei] = [h.of[k_of], h.er[k_of], h.ei[k_of]].map(usize::from);
                 let up = if side == 0 { 1.0 } else { -1.0 };
-                let turn = meeting[k][side] - angle(rest[er]);
-                at[er] = hinge.slid(rest[er], meeting[k][side], ABOVE[1]);
+                let turn = m[side] - angle(rest[er]);
+                at[er] = hinge.slid(rest[er], m[side], ABOVE[1]);
                 at[ei] = hinge.slid(rest[ei], line + 0.5 * up * SPLIT, ABOVE[0]);
                 at[of] = hinge.slid(rest[of], angle(rest[of]) + FOLLOWS * turn, ABOVE[2]);
             }
@@ -126,11 +126,10 @@ fn shut(h: &Handles, rings: &HalfRings, hinge: &Hinge, rest: &[Vec3], at: &mut [
         if round == ROUNDS {
             break;
         }
-        for k in 1..6 {
+        for (k, m) in meeting.iter_mut().enumerate().skip(1) {
             let [upper, lower] = [k, 12 - k].map(|k| angle(limit(usize::from(h.er[k]), at)));
             let apart = upper - lower + OVERLAP;
             // A smooth curve stays behind its control vertices.
-            let m = &mut meeting[k];
             let beyond = 0.5 * (m[1] - m[0]);
             let step = (0.5 * apart).clamp(-0.05, (FARTHEST - beyond).max(-0.05));
             m[0] -= step;
