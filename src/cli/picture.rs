@@ -6,6 +6,7 @@ use super::{Failure, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::Frame;
 use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
+use crate::rig::Pose;
 use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
@@ -20,6 +21,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
 
@@ -59,6 +61,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {

@@ -1,6 +1,7 @@
 //! The function from proportions to the half mesh's control positions, in its written order: features, start, fit,
 //! tissue over bone, ear, limit.
 
+mod blink;
 mod ear;
 mod fit;
 mod lids;
@@ -19,6 +20,7 @@ use crate::math::ops;
 use glam::Vec3;
 use std::sync::Arc;
 
+pub(super) use blink::{close as close_lids, vertices as lid_vertices};
 pub use fit::{FitPlan, hollow, layers};
 pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
