@@ -135,8 +135,8 @@ impl Pins<'_> {
         lips::place(self);
         mouth::place(self);
         lids::place(self);
-        stations::place(self);
         ear::place_base(self);
+        stations::place(self);
     }
 }
 
