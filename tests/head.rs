@@ -692,8 +692,8 @@ impl Skin<'_> {
     fn ear_length(&self) -> f32 {
         let base = &self.world.rig.half().loops["ear_base"];
         let mut path = vec![base.iter().map(|&v| self.at[v as usize]).sum::<Vec3>() / base.len() as f32];
-        path.extend((0..5).map(|r| self.middle((0..12).map(|k| format!("a{r}.{k}")))));
-        path.push(self.middle((0..8).map(|k| format!("a5.{k}"))));
+        path.extend((0..8).map(|r| self.middle((0..12).map(|k| format!("a{r}.{k}")))));
+        path.push(self.middle((0..8).map(|k| format!("a8.{k}"))));
         path.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
@@ -726,13 +726,13 @@ const MEASURED: &[(&str, Measure)] = &[
     ("nose_projection_mm", |s| s.tag("nm.0").z - s.tag("s.3.9").z),
     ("flews_mm", |s| s.tag("s.6.0").y - s.tag("s.6.9").y),
     ("jaw_depth_mm", |s| s.tag("s.6.9").y - s.tag("l.7.14").y),
-    ("jaw_offset_mm", |s| s.tag("l.3.11").z - s.tag("s.3.9").z),
+    ("overjet_mm", |s| s.tag("s.3.9").z - s.tag("l.3.11").z),
     ("eye_spacing_mm", |s| s.tag("er.0").x + s.tag("er.6").x),
     ("eyeball_diameter_mm", |s| s.apart("er.0", "er.6")),
     ("lid_opening", |s| s.apart("er.3", "er.9")),
     ("lid_width", |s| s.apart("er.0", "er.6")),
     ("ear_length_mm", |s| s.ear_length()),
-    ("ear_width_mm", |s| s.apart("a2.0", "a2.6")),
+    ("ear_width_mm", |s| s.apart("a4.0", "a4.6")),
     ("ear_base_mm", |s| s.apart("s.13.2", "s.16.5")),
     ("ear_set_back_mm", |s| -s.middle((0..12).map(|k| format!("a0.{k}"))).z),
     ("neck_width_mm", |s| s.loop_width("neck")),
