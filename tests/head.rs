@@ -387,7 +387,8 @@ fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
     let some =
         if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
-    let bound = Bound { together: 0.01, each: 0.1, exceptions: 0 };
+    // One is known: a vertex of the pug's jaw under the broadest root of a muzzle.
+    let bound = Bound { together: 0.02, each: 0.1, exceptions: 4 };
     assert_converged(&world, "ends", bound, some.into_iter().flat_map(|b| world.extremes(b)));
 }
 
@@ -577,7 +578,7 @@ impl<'a> Checker<'a> {
 /// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight. Most heads have none.
 const MOST_CROSSINGS: usize = 22;
 /// Leather that lies folded on itself at its root crosses itself there.
-const MOST_IN_EARS: usize = 44;
+const MOST_IN_EARS: usize = 32;
 /// And where lips, lining or nostrils lie on each other.
 const MOST_HIDDEN: usize = 32;
 
@@ -599,21 +600,19 @@ fn a_breed_is_no_valid_head() {
 }
 
 /// Blends of the sample that are known to be faulty, as they are: the hollow between bridge, stop and eye where one breed
-/// is narrow, and low ears on small heads. The large sweep meets more of both kinds.
+/// is narrow, low ears on small heads, and broad ears half way from rose to prick. The large sweep meets more of both kinds.
 const KNOWN_BLENDS: &[[&str; 2]] = &[
     ["bedlington", "beagle"],
-    ["border_collie", "bloodhound"],
     ["chihuahua", "bloodhound"],
     ["german_shepherd", "dachshund"],
     ["borzoi", "beagle"],
     ["chihuahua", "beagle"],
     ["chihuahua", "borzoi"],
     ["chihuahua", "cavalier"],
-    ["corgi", "chow_chow"],
     ["dachshund", "borzoi"],
-    ["pekingese", "chihuahua"],
     ["pug", "borzoi"],
     ["shih_tzu", "boston_terrier"],
+    ["staffordshire", "bull_terrier"],
 ];
 
 /// Blends in a hundred that the large sweep may find faulty.
@@ -817,7 +816,7 @@ const KNOWN_JUMPS: &[(&str, &str, f64)] = &[
     ("dachshund", "eye_height_mm", 2.1),
     ("dachshund", "cranial_length_mm", 1.6),
     ("archetype_dolicho", "muzzle_width_root_mm", 1.7),
-    ("beagle", "muzzle_depth_root_mm", 1.6),
+    ("beagle", "muzzle_depth_root_mm", 1.7),
     // No jump: the tip of the leather slides as fast as that over the edge of the head.
     ("bulldog", "ear_sweep_deg", 2.2),
 ];

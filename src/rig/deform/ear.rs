@@ -125,17 +125,22 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; SECTIONS] {
     let parts = parts(e);
     let mut sections = [Section::default(); SECTIONS];
     let (mut p, mut ring) = (root, 0);
-    for n in 0..STEPS {
-        let s = (n as f32 + 0.5) / STEPS as f32;
-        // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears.
+    // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears.
+    let turn = |s: f32, v: Vec3| {
         let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, 0.55, s));
-        let turn = |v: Vec3| vec3(v.x, v.y * cs - v.z * ss, v.y * ss + v.z * cs);
-        let (across, along) = bend(0.0, s * e.length);
-        while ring < SECTIONS && s + 0.5 / STEPS as f32 >= parts[ring] {
+        vec3(v.x, v.y * cs - v.z * ss, v.y * ss + v.z * cs)
+    };
+    for n in 0..STEPS {
+        let (start, middle) = (n as f32 / STEPS as f32, (n as f32 + 0.5) / STEPS as f32);
+        let way = turn(middle, bend(0.0, middle * e.length).1) * e.length;
+        while ring < SECTIONS && start + 1.0 / STEPS as f32 >= parts[ring] {
             let part = parts[ring];
+            let (across, along) = bend(0.0, part * e.length);
             let flat = [across, along, along.cross(across)];
             let into = |v: Vec3| vec3(v.dot(flat[0]), v.dot(flat[1]), v.dot(flat[2]));
-            let mut section = Section { part, centre: p, frame: flat.map(turn), ..Section::default() };
+            let mut section = Section { part, ..Section::default() };
+            section.centre = p + way * (part - start);
+            section.frame = flat.map(|v| turn(part, v));
             let step = half_width(e, part).max(0.5 * e.thickness) / MIDDLE as f32;
             for place in 0..PLACES {
                 let (across, along) = bend((place as f32 - MIDDLE as f32) * step, part * e.length);
@@ -151,7 +156,7 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; SECTIONS] {
             sections[ring] = section;
             ring += 1;
         }
-        p += turn(along) * (e.length / STEPS as f32);
+        p += way / STEPS as f32;
     }
     sections
 }
@@ -181,7 +186,7 @@ pub(super) fn leather(
             let mut p = section.at(e, column * (PLACES - 1) / half, face);
             if keep > 0.0 {
                 // The inner face stays hollow, as the concha is.
-                let hold = if face < 0.0 && k != 0 && k != half { 0.45 - 0.2 * covered } else { 0.85 };
+                let hold = if face < 0.0 && k != 0 && k != half { 0.45 - 0.12 * covered } else { 0.85 };
                 let rise = section.centre - root;
                 p = p + (base[k] + rise - p) * (hold * keep);
             }
@@ -197,12 +202,12 @@ pub(super) fn leather(
 /// Low in front the tragus, behind the notch the antitragus, and above the hollow that they close the anthelix, a ridge
 /// across the wall.
 const BURR: [(usize, usize, f32); 10] = [
-    (0, 2, 0.10),
+    (0, 2, 0.03),
     (0, 3, 0.02),
-    (0, 4, 0.12),
-    (1, 2, 0.03),
+    (0, 4, 0.06),
+    (1, 2, 0.09),
     (1, 3, -0.10),
-    (1, 4, 0.02),
+    (1, 4, 0.08),
     (2, 3, -0.05),
     (3, 2, 0.05),
     (3, 3, 0.10),
@@ -239,12 +244,17 @@ fn hang(e: &EarProportions) -> f32 {
 /// says, as a half-pricked ear does, and does not stick out to the side.
 fn fold(e: &EarProportions) -> f32 {
     let over = smoothstep(0.0, 1.6, e.fold);
-    e.fold + 3.6 * over * (1.0 - over)
+    e.fold + 3.6 * over * (1.0 - over) * (1.0 - held(e))
 }
 
 /// How much the leather covers its own root: 0 pricked, folded aslant or folded high, 1 hanging.
 fn covers(e: &EarProportions) -> f32 {
-    hang(e) * (1.0 - smoothstep(0.15, 0.6, e.fold_slant.abs()))
+    hang(e) * (1.0 - held(e))
+}
+
+/// How far the slant of its fold holds the leather, as that of a rose ear does, against its weight.
+fn held(e: &EarProportions) -> f32 {
+    smoothstep(0.1, 0.5, e.fold_slant.abs())
 }
 
 /// How much the leather lies on the head at a part of its length: where it hangs, beyond its fold; not a tip that only
