@@ -387,7 +387,8 @@ fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
     let some =
         if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
-    let bound = Bound { together: 0.01, each: 0.1, exceptions: 0 };
+    // One is known: a vertex of the pug's jaw under the broadest root of a muzzle.
+    let bound = Bound { together: 0.02, each: 0.1, exceptions: 4 };
     assert_converged(&world, "ends", bound, some.into_iter().flat_map(|b| world.extremes(b)));
 }
 
@@ -574,10 +575,10 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Pairs of crossing triangles, of 5130 at level 1, that a head may have in sight. Most heads have none.
+/// Pairs of crossing triangles, of 5562 at level 1, that a head may have in sight. Most heads have none.
 const MOST_CROSSINGS: usize = 22;
 /// Leather that lies folded on itself at its root crosses itself there.
-const MOST_IN_EARS: usize = 44;
+const MOST_IN_EARS: usize = 32;
 /// And where lips, lining or nostrils lie on each other.
 const MOST_HIDDEN: usize = 32;
 
@@ -599,21 +600,20 @@ fn a_breed_is_no_valid_head() {
 }
 
 /// Blends of the sample that are known to be faulty, as they are: the hollow between bridge, stop and eye where one breed
-/// is narrow, and low ears on small heads. The large sweep meets more of both kinds.
+/// is narrow, low ears on small heads, and broad ears half way from rose to prick. The large sweep meets more of both kinds.
 const KNOWN_BLENDS: &[[&str; 2]] = &[
     ["bedlington", "beagle"],
-    ["border_collie", "bloodhound"],
     ["chihuahua", "bloodhound"],
     ["german_shepherd", "dachshund"],
     ["borzoi", "beagle"],
     ["chihuahua", "beagle"],
     ["chihuahua", "borzoi"],
     ["chihuahua", "cavalier"],
-    ["corgi", "chow_chow"],
     ["dachshund", "borzoi"],
-    ["pekingese", "chihuahua"],
     ["pug", "borzoi"],
     ["shih_tzu", "boston_terrier"],
+    ["staffordshire", "bull_terrier"],
+    ["staffordshire", "siberian_husky"],
 ];
 
 /// Blends in a hundred that the large sweep may find faulty.
@@ -692,8 +692,8 @@ impl Skin<'_> {
     fn ear_length(&self) -> f32 {
         let base = &self.world.rig.half().loops["ear_base"];
         let mut path = vec![base.iter().map(|&v| self.at[v as usize]).sum::<Vec3>() / base.len() as f32];
-        path.extend((0..5).map(|r| self.middle((0..12).map(|k| format!("a{r}.{k}")))));
-        path.push(self.middle((0..8).map(|k| format!("a5.{k}"))));
+        path.extend((0..8).map(|r| self.middle((0..12).map(|k| format!("a{r}.{k}")))));
+        path.push(self.middle((0..8).map(|k| format!("a8.{k}"))));
         path.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
@@ -726,13 +726,13 @@ const MEASURED: &[(&str, Measure)] = &[
     ("nose_projection_mm", |s| s.tag("nm.0").z - s.tag("s.3.9").z),
     ("flews_mm", |s| s.tag("s.6.0").y - s.tag("s.6.9").y),
     ("jaw_depth_mm", |s| s.tag("s.6.9").y - s.tag("l.7.14").y),
-    ("jaw_offset_mm", |s| s.tag("l.3.11").z - s.tag("s.3.9").z),
+    ("overjet_mm", |s| s.tag("s.3.9").z - s.tag("l.3.11").z),
     ("eye_spacing_mm", |s| s.tag("er.0").x + s.tag("er.6").x),
     ("eyeball_diameter_mm", |s| s.apart("er.0", "er.6")),
     ("lid_opening", |s| s.apart("er.3", "er.9")),
     ("lid_width", |s| s.apart("er.0", "er.6")),
     ("ear_length_mm", |s| s.ear_length()),
-    ("ear_width_mm", |s| s.apart("a2.0", "a2.6")),
+    ("ear_width_mm", |s| s.apart("a4.0", "a4.6")),
     ("ear_base_mm", |s| s.apart("s.13.2", "s.16.5")),
     ("ear_set_back_mm", |s| -s.middle((0..12).map(|k| format!("a0.{k}"))).z),
     ("neck_width_mm", |s| s.loop_width("neck")),
@@ -817,7 +817,7 @@ const KNOWN_JUMPS: &[(&str, &str, f64)] = &[
     ("dachshund", "eye_height_mm", 2.1),
     ("dachshund", "cranial_length_mm", 1.6),
     ("archetype_dolicho", "muzzle_width_root_mm", 1.7),
-    ("beagle", "muzzle_depth_root_mm", 1.6),
+    ("beagle", "muzzle_depth_root_mm", 1.7),
     // No jump: the tip of the leather slides as fast as that over the edge of the head.
     ("bulldog", "ear_sweep_deg", 2.2),
 ];

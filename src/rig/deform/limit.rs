@@ -48,7 +48,7 @@ impl LimitPlan {
         for ring in &h.a {
             put(ring, 0.35);
         }
-        put(&h.a5, 0.5);
+        put(&h.ear_end, 0.5);
         put(&h.s[0], 0.3);
         put(&h.n, 0.3);
         put(&h.nm, 0.4);

@@ -176,7 +176,7 @@ impl DeformPlan {
         Pins { shape: base_shape, surface: &surface, handles: &handles, at: &mut at, buffer, record: Some(&mut kinds) }
             .place_all();
         let mut leather = vec![false; n];
-        for &v in handles.a.iter().flatten().chain(&handles.a5) {
+        for &v in handles.a.iter().flatten().chain(&handles.ear_end) {
             leather[v as usize] = true;
         }
         let mut anchors = base.clone();
@@ -203,7 +203,7 @@ impl DeformPlan {
     ) {
         let surface = Implicit::new(shape);
         self.features(shape, &surface, &mut scratch.rays, out);
-        for &v in self.handles.a.iter().flatten().chain(&self.handles.a5) {
+        for &v in self.handles.a.iter().flatten().chain(&self.handles.ear_end) {
             out[v as usize] = self.base[v as usize];
         }
         for (&v, &b) in self.handles.a[0].iter().zip(&self.handles.ear_base) {
