@@ -21,7 +21,7 @@ mod proportions;
 mod uv;
 pub mod whiskers;
 
-pub use control::{ControlError, HalfMesh, HalfRings};
+pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
 pub use handles::Handles;
 pub use landmarks::{Place, SkinLandmark};
@@ -81,6 +81,13 @@ pub struct Deformed {
     pub eyes: [Eye; 2],
 }
 
+impl Deformed {
+    /// Where the limit of each vertex of the half was meant to lie, in the proportions' frame and head units.
+    pub fn aims(&self) -> &[Vec3] {
+        self.scratch.aims()
+    }
+}
+
 impl Rig {
     /// The rig that is part of the program.
     ///
@@ -130,16 +137,7 @@ impl Rig {
 
     /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
     pub fn creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
-        let mirror = self.half.mirror();
-        self.half.creases.iter().flat_map(move |&(a, b, sharpness)| {
-            let image = (mirror[a as usize], mirror[b as usize]);
-            let own = (u32::from(a), u32::from(b));
-            // An edge in the median plane is its own image.
-            [Some(own), Some(image).filter(|&image| image != own)]
-                .into_iter()
-                .flatten()
-                .map(move |(a, b)| (a, b, sharpness))
-        })
+        self.half.whole_creases()
     }
 
     /// Connectivity of the whole control mesh.

@@ -163,6 +163,13 @@ pub struct Scratch {
     bone: tissue::Fields,
 }
 
+impl Scratch {
+    /// What the compensation of the last head aimed at.
+    pub(in crate::rig) fn aims(&self) -> &[Vec3] {
+        &self.rounds.start
+    }
+}
+
 impl DeformPlan {
     /// Finds the pinned vertices by placing the base head's features once, and the operators of the fit.
     pub fn new(half: &HalfMesh, handles: Handles, base_shape: &Proportions) -> Self {
