@@ -148,20 +148,23 @@ fn the_bite_is_not_the_one_that_is_set() {
 const THIN: &[(&str, f32)] = &[
     // The corner of the lids beside the nose and the lower lid, whose margin lies on the ball: the orbit of a short face is
     // shallow, that of a narrow one near the bridge.
-    ("er.", 2.5),
-    ("ei.", 3.3),
+    ("er.", 2.7),
+    ("ei.", 3.4),
     ("of.", 3.5),
     ("s.8.", 4.8),
     // Below the ear's base, where the nuchal crest of small lean heads ends.
     ("s.16.6", 4.3),
+    ("s.17.4", 4.0),
     ("s.16.", 1.5),
     ("s.15.", 2.0),
     ("a0.6", 2.2),
     ("a0.", 1.2),
     ("a1.", 1.2),
+    ("a3.6", 0.5),
     // The middle of a tight upper lip, in front of the lower incisors.
     ("s.3.9", 1.9),
     // The lower lip of undershot dogs and its lining, at the necks of their teeth.
+    ("ml.3.", 2.3),
     ("ml.4.", 2.0),
     ("l.4.10", 2.2),
     ("l.5.9", 3.6),

@@ -387,8 +387,8 @@ fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
     let some =
         if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
-    // One is known: a vertex of the pug's jaw under the broadest root of a muzzle.
-    let bound = Bound { together: 0.02, each: 0.1, exceptions: 4 };
+    // Two are known: the pug with the lowest tip of a muzzle, and with the shortest cranium.
+    let bound = Bound { together: 0.02, each: 0.1, exceptions: 8 };
     assert_converged(&world, "ends", bound, some.into_iter().flat_map(|b| world.extremes(b)));
 }
 
@@ -602,7 +602,8 @@ fn a_breed_is_no_valid_head() {
 /// Blends of the sample that are known to be faulty, as they are: the hollow between bridge, stop and eye where one breed
 /// is narrow, low ears on small heads, and broad ears half way from rose to prick. The large sweep meets more of both kinds.
 const KNOWN_BLENDS: &[[&str; 2]] = &[
-    ["bedlington", "beagle"],
+    ["corgi", "chow_chow"],
+    ["german_shepherd", "bulldog"],
     ["german_shepherd", "dachshund"],
     ["borzoi", "beagle"],
     ["chihuahua", "beagle"],
@@ -610,7 +611,6 @@ const KNOWN_BLENDS: &[[&str; 2]] = &[
     ["chihuahua", "cavalier"],
     ["dachshund", "borzoi"],
     ["pug", "borzoi"],
-    ["shih_tzu", "boston_terrier"],
     ["staffordshire", "bull_terrier"],
     ["staffordshire", "siberian_husky"],
 ];
@@ -647,7 +647,7 @@ fn a_blend_of_two_breeds_is_no_valid_head() {
         }
     }
     println!("{faulty} of {heads} blends are faulty");
-    let most = if sweeps_all() { heads * MOST_FAULTY / 100 } else { 15 };
+    let most = if sweeps_all() { heads * MOST_FAULTY / 100 } else { 9 };
     faults.check(faulty <= most, || format!("{faulty} of {heads} blends are faulty, {most} were known"));
     assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
 }
@@ -747,8 +747,8 @@ const KNOWN_FALLS: &[(&str, &str, f32)] = &[
     ("german_shepherd", "neck_depth_mm", 2.5e-4),
     ("pug", "stop_angle_deg", 0.04),
     ("pug", "muzzle_width_root_mm", 6e-4),
-    ("borzoi", "stop_angle_deg", 7e-3),
-    ("borzoi", "zygomatic_width_mm", 2e-4),
+    ("borzoi", "stop_angle_deg", 9e-3),
+    ("borzoi", "zygomatic_width_mm", 2.5e-4),
 ];
 
 #[test]
@@ -808,7 +808,7 @@ const KNOWN_JUMPS: &[(&str, &str, f64)] = &[
     ("chihuahua", "cranial_height_mm", 5.5),
     ("chihuahua", "mouth_corner_mm", 4.5),
     // Where a short face begins and a narrow eye ends, a vertex of the hollow before the eye leaps over its edge.
-    ("pekingese", "facial_length_mm", 14.5),
+    ("pekingese", "facial_length_mm", 7.7),
     ("pekingese", "eye_depth_mm", 7.5),
     ("pekingese", "eye_spacing_mm", 1.7),
     ("borzoi", "eye_spacing_mm", 2.4),
@@ -816,7 +816,8 @@ const KNOWN_JUMPS: &[(&str, &str, f64)] = &[
     ("dachshund", "eye_height_mm", 2.1),
     ("dachshund", "cranial_length_mm", 1.6),
     ("archetype_dolicho", "muzzle_width_root_mm", 1.7),
-    ("beagle", "muzzle_depth_root_mm", 1.7),
+    ("beagle", "muzzle_depth_root_mm", 1.8),
+    ("pug", "muzzle_width_tip_mm", 1.6),
     // No jump: the tip of the leather slides as fast as that over the edge of the head.
     ("bulldog", "ear_sweep_deg", 2.2),
 ];

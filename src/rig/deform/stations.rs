@@ -50,7 +50,7 @@ fn dorsal(pins: &mut Pins) {
     let up = vec3(0.0, -dir.z, dir.y);
     pins.trace(&mut rays);
     let crest = (pins.at[h.s[16][0] as usize] - start).dot(dir);
-    for (i, part) in [(17, 0.36), (18, 0.68), (19, 1.0)] {
+    for (i, part) in [(17, 0.62), (18, 0.82), (19, 1.0)] {
         let c = start + dir * (crest + (NECK - crest) * part);
         rays.push(Ray::new(h.s[i][0], c + up * s.neck_d, -up, Layer::Whole));
     }
@@ -159,11 +159,11 @@ fn sides(pins: &mut Pins) {
             start + dir * (d + (below - d) * side) + out * reach
         };
         if j < 9 {
-            rays.push(Ray::new(h.s[17][j], between(0.22, 3.6 + 0.2 * (1.0 - cos)), -out, Layer::Whole));
+            rays.push(Ray::new(h.s[17][j], between(0.32, 3.6 + 0.2 * (1.0 - cos)), -out, Layer::Whole));
         }
         if j % 3 == 2 {
             let v = if j < 10 { h.s[18][j] } else { h.l[18][j] };
-            rays.push(Ray::guide(v, between(0.6, 5.6), -out, Layer::Whole));
+            rays.push(Ray::guide(v, between(0.66, 5.6), -out, Layer::Whole));
         }
     }
     pins.keep(rays);
@@ -194,8 +194,14 @@ fn eye_hollow(pins: &mut Pins, rays: &mut Vec<Ray>) {
     let brow = around(2).lerp(nasion, 0.57);
     let medial = at(h.of[1]).lerp(across(0.6).lerp(brow, 0.62), 0.76);
     let corner = around(0).lerp(across(0.815), 0.38);
-    for (v, p) in [(h.orbit[0], corner), (h.orbit[1], medial), (h.orbit[2], brow), (h.s[8][1], nasion.lerp(brow, 0.5))]
-    {
+    let below = around(11).lerp(at(h.s[7][5]), 0.35);
+    for (v, p) in [
+        (h.orbit[11], below),
+        (h.orbit[0], corner),
+        (h.orbit[1], medial),
+        (h.orbit[2], brow),
+        (h.s[8][1], nasion.lerp(brow, 0.5)),
+    ] {
         let on_skin = pins.surface.project(p, Layer::Upper, 4);
         pins.set(v, on_skin);
     }
