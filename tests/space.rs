@@ -10,11 +10,12 @@ mod settings;
 
 use geometry::Shape;
 use londra::anatomy::{Breed, INHERITED_WHOLE, Locks, Space, SpaceError, Unit, cross, load_breed, save_breed};
+use londra::frame::skin_tags;
 use londra::math::rng::Rng;
 use londra::measure::{Folds, MAY_FOLD};
 use londra::rig::Deformed;
 use londra::rig::deform::ROUNDS;
-use londra::subdiv::{Plan, Scheme, evaluate_once};
+use londra::subdiv::{Plan, PlanOptions, Scheme, evaluate_once};
 use settings::{KNOWN_BREEDS, World};
 
 fn space(world: &World) -> Space {
@@ -284,7 +285,8 @@ fn folds_by_name(world: &World, plan: &Plan, dog: &Breed) -> usize {
 fn folds_are_overlooked_or_found_in_a_breed() {
     let world = World::embedded();
     let space = space(&world);
-    let plan = Plan::build(world.rig.mesh(), Scheme::Sqrt3, 1).unwrap_or_else(|e| panic!("{e}"));
+    let options = PlanOptions::new(Scheme::Sqrt3, 1);
+    let plan = Plan::build_with(world.rig.mesh(), &skin_tags(&world.rig), &options).unwrap_or_else(|e| panic!("{e}"));
     let mut folds = Folds::new(world.rig.clone()).unwrap_or_else(|e| panic!("{e}"));
     for seed in 0..40 {
         let dog = free(&world, &space, seed);

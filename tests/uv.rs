@@ -128,7 +128,7 @@ const SEAMS: [(&str, &[&str]); 7] = [
     ("lids inside", &["ei.0..11"]),
     ("nostril inside", &["ni.0..9"]),
     ("ear base", &["a0.0..11"]),
-    ("ear rim", &["a0..4.0", "a0..4.6", "a5.0..4"]),
+    ("ear rim", &["a0..7.0", "a0..7.6", "a8.0..4"]),
 ];
 
 /// `a.3..5.1` is `a.3.1`, `a.4.1`, `a.5.1`; the first part may have a range too.

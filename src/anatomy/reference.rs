@@ -48,6 +48,7 @@ pub const QUANTITIES: &[Quantity] = &[
     quantity("lateral_canthi", "mm", 15.0, 200.0),
     quantity("fissure_length", "mm", 5.0, 70.0),
     quantity("globe_diameter", "mm", 8.0, 40.0),
+    quantity("overjet", "mm", -40.0, 30.0),
     quantity("body_mass", "kg", 0.5, 130.0),
 ];
 

@@ -4,13 +4,13 @@
 //! one breed's shape decides, and none has to look like the mean.
 
 use super::bake::BakeError;
+use super::limits;
 use super::packing::{self, Island};
 use super::patch::{self, ChartPatch};
 use super::unwrap::{self, Piece};
 use crate::anatomy::{ParamTable, library};
-use crate::mesh::VertexId;
 use crate::rig::{Chart, Deformed, HalfMesh, HalfUv, Rig, deform};
-use crate::subdiv::{Evaluator, Normals, Plan, PlanOptions, Positions, Scheme, Tags};
+use crate::subdiv::{Evaluator, Normals, Plan, PlanOptions, Positions, Scheme};
 use std::collections::BTreeSet;
 
 /// Coordinates are multiples of its inverse.
@@ -66,9 +66,7 @@ fn mean_sides(half: &HalfMesh, table: &ParamTable) -> Result<Vec<[f64; 3]>, Bake
     let rig = Rig::new(half.clone(), table)?;
     let options =
         PlanOptions { positions: Positions::Limit, normals: Normals::None, ..PlanOptions::new(Scheme::Sqrt3, 0) };
-    let creases = rig.creases().map(|(a, b, sharpness)| (VertexId(a), VertexId(b), sharpness)).collect();
-    let tags = Tags { creases, ..Tags::default() };
-    let plan = Plan::build_with(rig.mesh(), &tags, &options)?;
+    let plan = Plan::build_with(rig.mesh(), &limits::tags(half), &options)?;
     let mut evaluator = Evaluator::new(&plan);
     let mut deformed = Deformed::default();
     let mut sums = vec![[0.0; 3]; half.faces.len()];

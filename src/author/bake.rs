@@ -1,6 +1,6 @@
 //! Baked assets: what is made of the patch file and the table, bit for bit the same each time.
 
-use super::{atlas, base, bone, patch};
+use super::{atlas, base, bone, limits, patch};
 use crate::anatomy::library::LibraryError;
 use crate::anatomy::{Breed, LoadErrors, ParamTable};
 use crate::rig::bone::{BoneHalf, BoneMesh};
@@ -58,6 +58,7 @@ pub fn head(patch_text: &str, table: &ParamTable) -> Result<HalfMesh, BakeError>
     let handles = Handles::new(&half)?;
     let defaults = Breed::defaults(table);
     let measures = Measures::from_values(&defaults.values, &columns(table)?);
+    half.limits = limits::rows(&half)?;
     half.base = base::fit(&half, &handles, &Proportions::new(&measures));
     Ok(half)
 }
@@ -141,6 +142,8 @@ fn text(half: &HalfMesh) -> String {
     list("faces", half.faces.iter().map(|f| format!("({})", numbers(f))).collect(), 8);
     list("base", half.base.iter().map(|[x, y, z]| format!("({x:?}, {y:?}, {z:?})")).collect(), 4);
     list("creases", half.creases.iter().map(|(a, b, s)| format!("({a}, {b}, {s:?})")).collect(), 8);
+    let sources = |row: &[(u16, bool, f32)]| row.iter().map(|s| format!("{s:?}")).collect::<Vec<_>>().join(", ");
+    list("limits", half.limits.iter().map(|(v, row)| format!("({v}, [{}])", sources(row))).collect(), 1);
     list("landmarks", half.landmarks.iter().map(|(id, name, v)| format!("({id:?}, {name:?}, {v})")).collect(), 1);
     let _ = writeln!(out, "    loops: {{");
     for (name, l) in &half.loops {

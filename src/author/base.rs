@@ -185,7 +185,7 @@ pub fn fit(half: &HalfMesh, handles: &Handles, shape: &Proportions) -> Vec<[f32;
     // The leather's base shape is never read but for its place near the head; give it the finished one.
     let mut finished = at.clone();
     plan.finish(shape, &surface, &mut Scratch::default(), &mut finished);
-    for &v in handles.a.iter().flatten().chain(&handles.a5) {
+    for &v in handles.a.iter().flatten().chain(&handles.ear_end) {
         at[v as usize] = finished[v as usize];
     }
     at.into_iter().map(|p| p.to_array()).collect()

@@ -4,6 +4,7 @@ mod atlas;
 pub mod bake;
 pub mod base;
 pub mod bone;
+mod limits;
 mod nets;
 mod packing;
 pub mod patch;

@@ -405,5 +405,6 @@ pub fn build(file: &PatchFile) -> Result<HalfMesh, PatchError> {
         }
     }
     let base = vec![[0.0; 3]; b.tags.len()];
-    Ok(HalfMesh { version: 1, tags: b.tags, midline, regions, faces: b.faces, loops, landmarks, creases, base })
+    let (version, tags, faces, limits) = (1, b.tags, b.faces, Vec::new());
+    Ok(HalfMesh { version, tags, midline, regions, faces, loops, landmarks, creases, limits, base })
 }

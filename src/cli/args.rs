@@ -145,10 +145,17 @@ pub(super) struct Scene {
     /// one head, low for a sheet, off below lines
     #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
     pub hair: Option<u32>,
+    /// How far the lids are closed, 0 to 1; two numbers with a comma: the left ones and the right ones
+    #[arg(long, value_name = "PART|L,R", default_value = "0", value_parser = values::lids_closed)]
+    pub lids_closed: Lids,
     /// Draw lines over the surfaces: the edges of the control mesh, or with =refined every edge
     #[arg(long, value_name = "control|refined", num_args = 0..=1, require_equals = true, default_missing_value = "control")]
     pub wireframe: Option<Wires>,
 }
+
+/// How far the lids are closed, left and right.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lids(pub [f32; 2]);
 
 /// Which lines.
 #[derive(Clone, Copy, Debug, ValueEnum)]

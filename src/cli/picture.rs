@@ -6,6 +6,7 @@ use super::{Failure, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::Frame;
 use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
+use crate::rig::Pose;
 use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
@@ -25,6 +26,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
     let n_strands = hair(&args.scene, HAIR);
     pipeline.set_hair(n_strands as usize);
+    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
 
@@ -68,6 +70,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
     let n_strands = hair(&args.scene, SHEET_HAIR);
     pipeline.set_hair(n_strands as usize);
+    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {

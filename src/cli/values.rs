@@ -1,5 +1,6 @@
 //! Words of the command line as values. Each error says what would be right.
 
+use super::args::Lids;
 use crate::anatomy::{colour, nearest};
 use crate::coat;
 use crate::render::{Background, View};
@@ -79,6 +80,19 @@ pub(super) fn pitch(text: &str) -> Result<f32, String> {
         return Err(format!("the pitch is {degrees}, allowed -90 to 90 degrees"));
     }
     Ok(degrees.to_radians() as f32)
+}
+
+/// How far the lids are closed: one number for both sides, or the left one's and the right one's.
+pub(super) fn lids_closed(text: &str) -> Result<Lids, String> {
+    let one = |word: &str| {
+        let part = number(word.trim())?;
+        match (0.0..=1.0).contains(&part) {
+            true => Ok(part as f32),
+            false => Err(format!("lids are {part} closed, allowed 0 (as the measures say) to 1 (shut)")),
+        }
+    };
+    let (left, right) = text.split_once(',').unwrap_or((text, text));
+    Ok(Lids([one(left)?, one(right)?]))
 }
 
 /// A list of views with commas between; two numbers in a row are one view.

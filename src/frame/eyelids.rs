@@ -22,8 +22,9 @@ struct Pair {
 /// Their plans and what they draw.
 pub(super) struct EyelidParts {
     evaluator: Evaluator,
-    /// The lower lid's inner margin from the lateral corner to the medial one: vertices of the skin at every level.
-    margin: [usize; 7],
+    /// The lower lids' inner margins from the lateral corner to the medial one, left and right: vertices of the skin at
+    /// every level.
+    margins: [[usize; 7]; 2],
     control: Vec<Vec3>,
     third: Pair,
     tears: Pair,
@@ -36,17 +37,30 @@ impl EyelidParts {
         let third = Pair::new(&third, ["third_eyelid_L", "third_eyelid_R"], Material::ThirdEyelid)?;
         let tears = Pair::new(&tears, ["tears_L", "tears_R"], Material::Tears)?;
         let inner = rig.plan().handles().ei;
-        let margin = std::array::from_fn(|k| usize::from(inner[(6 + k) % 12]));
-        Ok(Self { evaluator: Evaluator::new(&third.plan), margin, control: Vec::new(), third, tears })
+        let margin: [usize; 7] = std::array::from_fn(|k| usize::from(inner[(6 + k) % 12]));
+        let mirror = rig.half().mirror();
+        let margins = [margin, margin.map(|v| mirror[v] as usize)];
+        Ok(Self { evaluator: Evaluator::new(&third.plan), margins, control: Vec::new(), third, tears })
     }
 
-    /// `eye`: the left one; `skin`: positions of the refined skin.
-    pub(super) fn shape(&mut self, proportions: &Proportions, eye: &Eye, skin: &[Vec3]) {
-        let Self { evaluator, margin, control, third, tears } = self;
+    /// `eye`: the left one; `skin`: positions of the refined skin; `alike`: whether both eyes are closed as far.
+    pub(super) fn shape(&mut self, proportions: &Proportions, eye: &Eye, skin: &[Vec3], alike: bool) {
+        let Self { evaluator, margins, control, third, tears } = self;
         eyelids::third_eyelid(proportions, eye, control);
-        third.shape(evaluator, control);
-        eyelids::tear_line(eye, &margin.map(|v| skin[v]), control);
-        tears.shape(evaluator, control);
+        third.left(evaluator, control);
+        third.mirror();
+        let [left, right] = margins.map(|margin| margin.map(|v| skin[v]));
+        if alike {
+            eyelids::tear_line(eye, &left, control);
+            tears.left(evaluator, control);
+            tears.mirror();
+        } else {
+            eyelids::tear_line(eye, &right.map(|p| vec3(-p.x, p.y, p.z)), control);
+            tears.left(evaluator, control);
+            tears.mirror();
+            eyelids::tear_line(eye, &left, control);
+            tears.left(evaluator, control);
+        }
     }
 
     pub(super) fn paint(&mut self, look: &Look) {
@@ -79,9 +93,14 @@ impl Pair {
         Ok(Self { plan, sides })
     }
 
-    fn shape(&mut self, evaluator: &mut Evaluator, control: &[Vec3]) {
-        let [left, right] = &mut self.sides;
+    fn left(&mut self, evaluator: &mut Evaluator, control: &[Vec3]) {
+        let left = &mut self.sides[0];
         evaluator.evaluate_into(&self.plan, control, &mut left.positions, &mut left.normals);
+    }
+
+    /// Makes the right one the mirror image of the left.
+    fn mirror(&mut self) {
+        let [left, right] = &mut self.sides;
         for (from, to) in [(&left.positions, &mut right.positions), (&left.normals, &mut right.normals)] {
             from.iter().zip(to).for_each(|(l, r)| *r = vec3(-l.x, l.y, l.z));
         }

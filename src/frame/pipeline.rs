@@ -16,7 +16,7 @@ use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Root};
 use crate::math::fnv::Fnv64;
-use crate::rig::{ControlError, Deformed, Rig, deform};
+use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
 use std::sync::Arc;
@@ -64,6 +64,9 @@ pub struct Pipeline {
     mouth: Option<MouthParts>,
     hair: HairValues,
     values: Vec<f32>,
+    pose: Pose,
+    /// The pose of the last frame.
+    posed: Pose,
     look: Option<Look>,
     revisions: Revisions,
 }
@@ -107,6 +110,8 @@ impl Pipeline {
             mouth: None,
             hair: HairValues::default(),
             values: Vec::new(),
+            pose: Pose::default(),
+            posed: Pose::default(),
             look: None,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
             plan: Arc::new(plan),
@@ -200,6 +205,11 @@ impl Pipeline {
         Ok(())
     }
 
+    /// What the dog does in the next frames; at rest until this is called.
+    pub fn set_pose(&mut self, pose: Pose) {
+        self.pose = pose;
+    }
+
     /// Which layers a frame has.
     pub fn layers(&self) -> Layers {
         self.layers
@@ -249,9 +259,15 @@ impl Pipeline {
     ///
     /// `breed.values` has one value for each row of the table that the rig was made for.
     pub fn update(&mut self, breed: &Breed) -> Frame<'_> {
-        if self.values != breed.values {
-            self.shape(&breed.values);
+        let is_other = self.values != breed.values;
+        if is_other {
+            self.rig.deform(&breed.values, deform::ROUNDS, &mut self.deformed);
             self.values.clone_from(&breed.values);
+        }
+        if is_other || self.posed != self.pose {
+            self.rig.pose(&breed.values, &self.pose, &mut self.deformed);
+            self.posed = self.pose;
+            self.shape(&breed.values);
             self.revisions.shape += 1;
         }
         if self.look.as_ref() != Some(&breed.look) {
@@ -294,7 +310,6 @@ impl Pipeline {
     }
 
     fn shape(&mut self, values: &[f32]) {
-        self.rig.deform(values, deform::ROUNDS, &mut self.deformed);
         let [skin, cap, left, right] = &mut self.parts;
         let control = &self.deformed.control;
         self.evaluator.evaluate_into(&self.plan, control, &mut skin.positions, &mut skin.normals);
@@ -305,7 +320,9 @@ impl Pipeline {
             eyeball::place(eye, &mut part.positions, &mut part.normals);
         }
         let (measures, proportions) = (self.rig.measures(values), self.rig.proportions(values));
-        self.eyelids.shape(&proportions, &self.deformed.eyes[0], &skin.positions);
+        let [left, right] = self.pose.lids_closed;
+        let alike = left == right;
+        self.eyelids.shape(&proportions, &self.deformed.eyes[0], &skin.positions, alike);
         self.whiskers.shape(skin, proportions.scale);
         let Layers { bone, teeth, mouth, tongue, .. } = self.layers;
         if let Some(skeleton) = self.skeleton.as_mut().filter(|_| bone || teeth) {

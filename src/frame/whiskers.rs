@@ -61,7 +61,9 @@ impl WhiskerParts {
             let normal = (of_skin(&skin.normals, anchor) + face).normalize_or(Vec3::Y);
             let along = back(of_skin(&skin.flow, anchor), normal);
             let across = normal.cross(along);
-            let direction = (normal * f.lean.x + along * f.lean.y + across * f.lean.z).normalize_or(normal);
+            let leaning = (normal * f.lean.x + along * f.lean.y + across * f.lean.z).normalize_or(normal);
+            // Where the skin bends sharply, the face may look another way than the skin around it.
+            let direction = (leaning + face * (0.35 - leaning.dot(face)).max(0.0)).normalize_or(face);
             let position = of_skin(&skin.positions, anchor);
             let Follicle { group, row, place, .. } = *f;
             let length = 0.001 * f.length * scale / 0.01;

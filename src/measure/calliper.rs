@@ -6,7 +6,7 @@
 use crate::anatomy::Breed;
 use crate::frame::skin_tags;
 use crate::math::ops;
-use crate::rig::bone::Bones;
+use crate::rig::bone::{Bones, Targets, targets, teeth};
 use crate::rig::{ControlError, Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, Plan, PlanError, PlanOptions, Scheme};
 use glam::Vec3;
@@ -159,13 +159,32 @@ impl Calliper {
             vertex.map_or(Vec3::NAN, |v| skin[v]) * 1000.0
         };
         let on_bone = |id: &str| bone.iter().find(|(known, _)| *known == id).map_or(Vec3::NAN, |(_, p)| *p) * 1000.0;
-        measurements(&on_bone, &on_skin, self.deformed.eyes[0].radius * 2000.0)
+        let mut found = measurements(&on_bone, &on_skin, self.deformed.eyes[0].radius * 2000.0);
+        found.push(Measurement {
+            id: "overjet",
+            label: "Overjet",
+            definition: "edge of the upper first incisor before that of the lower, along the palate; below 0 undershot",
+            tissue: Tissue::Bone,
+            dimension: Dimension::Millimetre,
+            value: overjet(&targets(&rig.measures(values), &rig.proportions(values))) * 1000.0,
+        });
+        found
     }
 
     /// The same for every breed: what percentiles are among.
     pub fn survey(&mut self, breeds: &[Breed]) -> Vec<Vec<Measurement>> {
         breeds.iter().map(|breed| self.measure(&breed.values)).collect()
     }
+}
+
+/// From the edge of the lower first incisor forwards to that of the upper, on the crowns, metres.
+fn overjet(landmarks: &Targets<Vec3>) -> f32 {
+    let [upper, lower] = [true, false].map(|upper| {
+        let mut crowns = Vec::new();
+        teeth::place(landmarks, upper, &mut crowns);
+        teeth::edge_of_first(&crowns).map_or(f32::NAN, |edge| edge.z)
+    });
+    upper - lower
 }
 
 fn measurements(bone: &dyn Fn(&str) -> Vec3, skin: &dyn Fn(&str) -> Vec3, globe: f32) -> Vec<Measurement> {

@@ -9,9 +9,9 @@ use glam::Vec3;
 use std::sync::Arc;
 
 /// Starts of the names of control vertices about which the skin may fold flat: the lining of the mouth, the leather of
-/// the ear, the corner of the closed mouth, and the orbit's corner beside the nose, where the fold of a large lid lies
-/// against the stop.
-pub const MAY_FOLD: [&str; 10] = ["mu.", "ml.", "a0.", "a1.", "a2.", "a3.", "a4.", "a5.", "s.10.9", "s.8.2"];
+/// the ear, the corner of the closed mouth.
+pub const MAY_FOLD: [&str; 12] =
+    ["mu.", "ml.", "a0.", "a1.", "a2.", "a3.", "a4.", "a5.", "a6.", "a7.", "a8.", "s.10.9"];
 
 /// Cosine of 170 degrees between the normals of an edge's two faces.
 const FOLDED: f32 = -0.984_807_7;

@@ -10,6 +10,9 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+/// A vertex, and the vertices and weights that give its limit position; each with whether its mirror image is meant.
+pub type LimitRow = (u16, Vec<(u16, bool, f32)>);
+
 /// Half of the head, as baked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,6 +33,8 @@ pub struct HalfMesh {
     pub landmarks: Vec<(String, String, u16)>,
     /// Sharp edges, each by its two vertices and how many double steps of √3 it stays sharp.
     pub creases: Vec<(u16, u16, f32)>,
+    /// Limit positions that sharp edges decide.
+    pub limits: Vec<LimitRow>,
     /// Control positions of the base head, in its proportions' frame and head units.
     pub base: Vec<[f32; 3]>,
 }
@@ -74,6 +79,7 @@ impl HalfMesh {
             ("faces", self.faces.iter().flatten().all(|&v| (v as usize) < n)),
             ("loops", self.loops.values().flatten().all(|&v| (v as usize) < n)),
             ("creases", self.creases.iter().all(|c| (c.0.max(c.1) as usize) < n)),
+            ("limits", self.limits.iter().all(|(v, row)| (*v as usize) < n && row.iter().all(|s| (s.0 as usize) < n))),
             ("landmarks", self.landmarks.iter().all(|l| (l.2 as usize) < n)),
         ];
         match fits.iter().find(|f| !f.1) {
@@ -95,6 +101,18 @@ impl HalfMesh {
     /// Triangles of the whole mesh: the half's, then their mirror images.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         mirror::triangles(&self.midline, &self.faces)
+    }
+
+    /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
+    pub fn whole_creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
+        let mirror = self.mirror();
+        self.creases.iter().flat_map(move |&(a, b, sharpness)| {
+            let image = (mirror[a as usize], mirror[b as usize]);
+            let own = (u32::from(a), u32::from(b));
+            // An edge in the median plane is its own image.
+            let both = [Some(own), Some(image).filter(|&image| image != own)];
+            both.into_iter().flatten().map(move |(a, b)| (a, b, sharpness))
+        })
     }
 
     /// The whole mesh's connectivity.

@@ -1,7 +1,7 @@
 //! Direction in which hair lies: from the nose towards the neck, along the rings; on ears from base to tip; on lids
 //! outwards. A difference of two control positions for each vertex, so it follows every breed.
 
-use super::handles::{Handles, NONE};
+use super::handles::{EAR_RINGS, Handles, NONE};
 
 /// For each half vertex, the vertices from which and to which hair points; equal where there is none.
 pub(super) fn pairs(h: &Handles, n: usize) -> Vec<(u16, u16)> {
@@ -31,14 +31,14 @@ pub(super) fn pairs(h: &Handles, n: usize) -> Vec<(u16, u16)> {
     }
     for k in 0..12 {
         strand(h.er[k], h.of[k], h.orbit[k]);
-        for r in 0..5 {
+        for r in 0..EAR_RINGS {
             let before = if r == 0 { h.ear_base[k] } else { h.a[r - 1][k] };
-            let after = if r < 4 { h.a[r + 1][k] } else { NONE };
+            let after = if r + 1 < EAR_RINGS { h.a[r + 1][k] } else { NONE };
             strand(before, h.a[r][k], after);
         }
     }
-    for (k, v) in h.a5.into_iter().enumerate() {
-        strand(h.a[4][k * 12 / 8], v, NONE);
+    for (k, v) in h.ear_end.into_iter().enumerate() {
+        strand(h.a[EAR_RINGS - 1][k * 12 / 8], v, NONE);
     }
     out
 }

@@ -93,7 +93,7 @@ fn of_face(m: &mut Measures) -> [&mut f32; 18] {
         &mut m.nose_lift,
         &mut m.nasal_arch,
         &mut m.flews,
-        &mut m.jaw_offset,
+        &mut m.overjet,
         &mut m.jaw_depth,
         &mut m.chin,
         &mut m.mouth_corner,

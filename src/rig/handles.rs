@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 /// Stands for a place of a patch where there is no vertex.
 pub const NONE: u16 = u16::MAX;
 
+/// Rings of twelve vertices around the ear's leather; one of eight closes it.
+pub const EAR_RINGS: usize = 8;
+
 /// Half vertices by patch; the patches are explained in `assets/head.patch.ron`.
 #[derive(Clone, Debug)]
 pub struct Handles {
@@ -40,9 +43,9 @@ pub struct Handles {
     /// The hole of the grid below the ear.
     pub ear_base: [u16; 12],
     /// Rings of the ear from its base: ring, place around.
-    pub a: [[u16; 12]; 5],
+    pub a: [[u16; 12]; EAR_RINGS],
     /// Last ring of the ear.
-    pub a5: [u16; 8],
+    pub ear_end: [u16; 8],
 }
 
 impl Handles {
@@ -88,6 +91,10 @@ impl Handles {
                 ml[i][p] = get(format!("ml.{i}.{p}"))?;
             }
         }
+        let mut a = [[NONE; 12]; EAR_RINGS];
+        for (r, ring) in a.iter_mut().enumerate() {
+            *ring = row(&get, &format!("a{r}"))?;
+        }
         Ok(Self {
             s,
             l,
@@ -104,8 +111,8 @@ impl Handles {
             ei: row(&get, "ei")?,
             ep: get("ep".into())?,
             ear_base: named("ear_base")?,
-            a: [row(&get, "a0")?, row(&get, "a1")?, row(&get, "a2")?, row(&get, "a3")?, row(&get, "a4")?],
-            a5: row(&get, "a5")?,
+            a,
+            ear_end: row(&get, &format!("a{EAR_RINGS}"))?,
         })
     }
 }

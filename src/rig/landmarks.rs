@@ -25,11 +25,11 @@ const MORE: [(&str, &str, &[&str]); 22] = [
     ("K44", "interramal vibrissa tuft", &["l.11.14"]),
     ("K45", "supraorbital vibrissa tuft", &["s.10.1", "s.10.2", "s.11.2"]),
     ("K53", "neck dorsal at atlas", &["s.17.0"]),
-    ("K54", "neck lateral at atlas", &["s.18.5"]),
+    ("K54", "neck lateral at atlas", &["s.18.6"]),
     ("K55", "neck ventral at C1", &["l.18.14"]),
     ("K56", "inner brow head", &["s.10.0", "s.10.1", "s.11.1"]),
     ("K57", "planum nasale dorsolateral corner", &["s.0.3"]),
-    ("K58", "lower lip margin at P2-P3", &["l.6.9"]),
+    ("K58", "lower lip margin at P2-P3", &["l.7.9"]),
 ];
 
 /// A place of the control mesh, by number in the whole mesh.

@@ -64,6 +64,17 @@ impl F8 {
     pub fn min(self, o: F8) -> F8 {
         F8(from_fn(|k| if self.0[k] < o.0[k] { self.0[k] } else { o.0[k] }))
     }
+    /// The smallest lane and the largest.
+    #[inline(always)]
+    pub fn range(self) -> (f32, f32) {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        let less = |a: f32, b: f32| if a < b { a } else { b };
+        let more = |a: f32, b: f32| if a > b { a } else { b };
+        (
+            less(less(less(a, e), less(b, f)), less(less(c, g), less(d, h))),
+            more(more(more(a, e), more(b, f)), more(more(c, g), more(d, h))),
+        )
+    }
     /// Between two numbers.
     #[inline(always)]
     pub fn clamp(self, lo: f32, hi: f32) -> F8 {

@@ -15,15 +15,17 @@ mod landmarks;
 mod lanes;
 mod mirror;
 pub mod mouth;
+mod pose;
 mod primitives;
 mod proportions;
 mod uv;
 pub mod whiskers;
 
-pub use control::{ControlError, HalfMesh, HalfRings};
+pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
 pub use handles::Handles;
 pub use landmarks::{Place, SkinLandmark};
+pub use pose::Pose;
 pub use proportions::{EarProportions, Measures, Proportions};
 pub use uv::{Chart, HEAD_UV, HalfUv};
 
@@ -62,17 +64,28 @@ pub struct Rig {
     columns: Vec<usize>,
     plan: DeformPlan,
     flow: Vec<(u32, u32)>,
+    /// Number of each half vertex on the other side.
+    images: Vec<u32>,
 }
 
 /// One head's control positions; buffers are made once and written again for every breed.
 #[derive(Clone, Debug, Default)]
 pub struct Deformed {
     half: Vec<Vec3>,
+    /// The half with closed lids.
+    posed: Vec<Vec3>,
     scratch: Scratch,
     /// Control positions of the whole mesh, metres, head's frame.
     pub control: Vec<Vec3>,
     /// The left eye and the right.
     pub eyes: [Eye; 2],
+}
+
+impl Deformed {
+    /// Where the limit of each vertex of the half was meant to lie, in the proportions' frame and head units.
+    pub fn aims(&self) -> &[Vec3] {
+        self.scratch.aims()
+    }
 }
 
 impl Rig {
@@ -95,7 +108,8 @@ impl Rig {
         let defaults = Measures::from_values(&Breed::defaults(table).values, &columns);
         let flow = Self::whole_flow(&half, &handles);
         let plan = DeformPlan::new(&half, handles, &Proportions::new(&defaults));
-        Ok(Self { half, mesh, columns, plan, flow })
+        let images = half.mirror();
+        Ok(Self { half, mesh, columns, plan, flow, images })
     }
 
     fn whole_flow(half: &HalfMesh, handles: &Handles) -> Vec<(u32, u32)> {
@@ -123,16 +137,7 @@ impl Rig {
 
     /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
     pub fn creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
-        let mirror = self.half.mirror();
-        self.half.creases.iter().flat_map(move |&(a, b, sharpness)| {
-            let image = (mirror[a as usize], mirror[b as usize]);
-            let own = (u32::from(a), u32::from(b));
-            // An edge in the median plane is its own image.
-            [Some(own), Some(image).filter(|&image| image != own)]
-                .into_iter()
-                .flatten()
-                .map(move |(a, b)| (a, b, sharpness))
-        })
+        self.half.whole_creases()
     }
 
     /// Connectivity of the whole control mesh.
@@ -175,5 +180,32 @@ impl Rig {
         let axes = deform::eye_axes(&shape).map(|a| shape.direction(a));
         let left = Eye { centre: shape.metres(shape.eye()), radius: shape.eye_r * shape.scale, axes };
         out.eyes = [left, left.mirrored()];
+    }
+
+    /// Moves the control positions of a head that [`Rig::deform`] made from these values into a pose; at rest they are those
+    /// of `deform`, bit for bit. It starts from the head at rest, whatever pose it was in.
+    pub fn pose(&self, values: &[f32], pose: &Pose, out: &mut Deformed) {
+        let Deformed { half, posed, control, eyes, .. } = out;
+        self.half.unfold(half, control);
+        let [left, right] = pose.lids_closed.map(|closed| closed.clamp(0.0, 1.0));
+        if left == 0.0 && right == 0.0 {
+            return;
+        }
+        let shape = self.proportions(values);
+        let axes = deform::orbit_axes(&shape).map(|axis| shape.direction(axis));
+        let handles = self.plan.handles();
+        for (side, closed) in [left, right].into_iter().enumerate().filter(|(_, closed)| *closed > 0.0) {
+            if side == 0 || closed != left {
+                deform::close_lids(handles, self.plan.rings(), &eyes[0], axes, closed, half, posed);
+            }
+            for v in deform::lid_vertices(handles) {
+                let p = posed[v];
+                if side == 0 {
+                    control[v] = p;
+                } else {
+                    control[self.images[v] as usize] = Vec3::new(-p.x, p.y, p.z);
+                }
+            }
+        }
     }
 }

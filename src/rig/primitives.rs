@@ -20,6 +20,16 @@ impl Ellipsoid {
     pub(super) fn new(centre: Vec3, radii: Vec3) -> Self {
         Self { centre, inverse: radii.max(Vec3::splat(0.05)).recip(), turn: None }
     }
+    /// A centre, a slope and a length: the distance is nowhere less than the slope times that from the centre, less the
+    /// length.
+    ///
+    /// The distance is |q|²/|r| - |q|/|r| with q = p/radii, r = q/radii. Its first part is at least 2ρ/(1 + ρ²) of |p|,
+    /// where ρ is the ratio of the largest to the smallest radius (by Kantorovich's inequality, 1948), its second
+    /// at most the largest radius.
+    pub(super) fn bound(&self) -> (Vec3, f32, f32) {
+        let (small, large) = (self.inverse.max_element().recip(), self.inverse.min_element().recip());
+        (self.centre, 2.0 * small * large / (small * small + large * large), large)
+    }
     pub(super) fn turned(centre: Vec3, radii: Vec3, degrees: f32) -> Self {
         let a = degrees.to_radians();
         Self { turn: Some((ops::cos(a), ops::sin(a))), ..Self::new(centre, radii) }
@@ -50,6 +60,10 @@ pub(super) struct Cone {
 }
 
 impl Cone {
+    /// Centre and radius of a ball about it; the distance from the cone is that from the ball at least.
+    pub(super) fn bound(&self) -> (Vec3, f32) {
+        (self.a + 0.5 * self.axis, 0.5 * self.axis.length() + self.ra.max(self.ra + self.dr))
+    }
     pub(super) fn new(a: Vec3, b: Vec3, ra: f32, rb: f32) -> Self {
         let axis = b - a;
         Self { a, axis, inverse_length_squared: 1.0 / axis.length_squared().max(1e-6), ra, dr: rb - ra }

@@ -57,7 +57,7 @@ measures! {
     flews = "flews_mm",
     lip_thickness = "lip_thickness",
     mouth_corner = "mouth_corner_mm",
-    jaw_offset = "jaw_offset_mm",
+    overjet = "overjet_mm",
     jaw_width = "jaw_width",
     jaw_depth = "jaw_depth_mm",
     chin = "chin_mm",
@@ -82,6 +82,7 @@ measures! {
     ear_fold = "ear_fold_deg",
     ear_fold_height = "ear_fold_height",
     ear_fold_softness = "ear_fold_softness",
+    ear_fold_slant = "ear_fold_slant_deg",
     ear_sweep = "ear_sweep_deg",
     ear_cup = "ear_cup",
     ear_thickness = "ear_thickness_mm",
@@ -117,7 +118,9 @@ pub struct EarProportions {
     pub fold_height: f32,
     /// Part of the length over which the fold is spread.
     pub fold_softness: f32,
-    /// Of the fold's line across the ear.
+    /// Of the fold's line against a line across the ear: positive where the front edge folds nearest to the base.
+    pub fold_slant: f32,
+    /// Of the leather about the transverse axis, backwards.
     pub sweep: f32,
     /// How far the leather is rolled to a cup.
     pub cup: f32,
@@ -188,7 +191,7 @@ pub struct Proportions {
     pub lip_t: f32,
     /// Where the corner of the mouth lies along the muzzle.
     pub corner_z: f32,
-    /// How far the lower jaw stands before the upper.
+    /// How far the chin's pad stands before the upper lip's front.
     pub jaw_len: f32,
     /// Width of the lower jaw as a part of the upper's.
     pub jaw_w: f32,
@@ -229,6 +232,9 @@ const REFERENCE_CRANIUM: f32 = 0.106;
 
 /// The base of the cranium below the skin of the nasion on the canonical head, with the skin of the crown (head units).
 const BASE_BELOW_NASION: f32 = 3.65;
+
+/// How far the chin's pad stands before the upper lip's front where the incisors meet edge to edge (head units).
+const LEVEL_BITE: f32 = -0.6;
 
 /// How deep the bridge lies under the forehead (head units) for an interior stop angle in radians. A curve through the
 /// classes of the standards: 175 degrees is hardly a step, 145 a Labrador's, 95 the deepest.
@@ -271,7 +277,7 @@ impl Proportions {
             flew: u(m.flews),
             lip_t: m.lip_thickness,
             corner_z: u(m.mouth_corner),
-            jaw_len: u(m.jaw_offset),
+            jaw_len: LEVEL_BITE - u(m.overjet),
             jaw_w: m.jaw_width,
             jaw_d: u(m.jaw_depth),
             chin: u(m.chin),
@@ -298,6 +304,7 @@ impl Proportions {
                 fold: m.ear_fold,
                 fold_height: m.ear_fold_height,
                 fold_softness: m.ear_fold_softness,
+                fold_slant: m.ear_fold_slant,
                 sweep: m.ear_sweep,
                 cup: m.ear_cup,
                 thickness: u(m.ear_thickness),

@@ -5,6 +5,7 @@
 //! length, zygion to zygion the zygomatic width, euryon to euryon the cranial width; the condyles' middle is the origin.
 //! What the measures leave open follows the skin's proportions at the depth of the tissue over the bone.
 
+use super::teeth;
 use crate::math::ops;
 use crate::rig::proportions::{Measures, Proportions};
 use glam::{Vec3, vec3};
@@ -197,8 +198,16 @@ pub fn targets(m: &Measures, s: &Proportions) -> Targets<Vec3> {
         let skin1 = s.lip1() - 0.72 * s.jaw_d;
         line(out(z), &[(out(24.0), skin0 + 0.3), (prosthion.z, skin1 + 0.55)])
     };
-    let bite = (s.jaw_len + 0.8).max(-0.7) - 0.3;
-    let infradentale = vec3(0.0, prosthion.y - below(11.0), prosthion.z + bite);
+    // So far forwards that the incisors have their overjet. The first lower one stands between infradentale and canine,
+    // and the canine between infradentale and the first molar, which stays: both a part of the way, so that it is linear.
+    let infradentale = {
+        let unit = s.head_from_muzzle(prosthion).distance(akrokranion) / 200.0;
+        let [(up_part, up_behind), (low_part, low_behind)] = [true, false].map(teeth::first_edge);
+        let upper = prosthion.z + up_part * (out(canon.incisor.z) - prosthion.z) - up_behind * unit;
+        let lower = upper - u(m.overjet) + low_behind * unit;
+        let back = low_part * teeth::LOWER_FRONT * (134.0 - canon.lower_canine.z) / (134.0 - 66.0);
+        vec3(0.0, prosthion.y - below(11.0), (lower - back * out(66.0)) / (1.0 - back))
+    };
     let jaw_z = |z: f32| line(z, &[(0.0, out(0.0)), (66.0, out(66.0)), (134.0, infradentale.z)]);
     let jaw_w = 0.5 + 0.58 * s.jaw_w;
     let lower = |z: f32| {

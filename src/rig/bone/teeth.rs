@@ -125,13 +125,38 @@ pub fn unit(t: &Targets<Vec3>) -> f32 {
     t.prosthion.distance(t.akrokranion) / 200.0
 }
 
+/// Incisors of half a jaw.
+const INCISORS: usize = 3;
+/// Where the lower front ends, as a part of the way from infradentale to the canine.
+pub(super) const LOWER_FRONT: f32 = 0.6;
+
+/// Where an incisor's middle stands between the median plane and that of the third.
+fn front_share(teeth: &[Tooth], i: usize) -> f32 {
+    let front: f32 = teeth[..INCISORS].iter().map(|t| t.size.x).sum();
+    let before: f32 = teeth[..i].iter().map(|t| t.size.x).sum();
+    (before + 0.5 * teeth[i].size.x) / (front - 0.5 * teeth[INCISORS - 1].size.x)
+}
+
+/// Where the edge of a first incisor stands: the part of the way along the arch's front from its middle, and how far behind
+/// the arch, canonical millimetres.
+pub(super) fn first_edge(upper: bool) -> (f32, f32) {
+    let teeth: &[Tooth] = if upper { &UPPER } else { &LOWER };
+    (front_share(teeth, 0), 0.5 * teeth[0].size.y)
+}
+
+/// The middle of the edge of the left first incisor, of a jaw's teeth as [`place`] makes them or an interpolating scheme
+/// refines them; nothing where there are no teeth.
+pub fn edge_of_first(teeth: &[Vec3]) -> Option<Vec3> {
+    teeth.get(TOOTH_VERTICES - 1).copied()
+}
+
 /// The seats of one jaw's left teeth, from the middle backwards.
 pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
     let unit = unit(t);
     let (teeth, arch): (&'static [Tooth], [Vec3; 5]) = if upper {
         (&UPPER, [t.prosthion, t.incisor, t.canine, t.maxilla, t.upper_last])
     } else {
-        let side = t.infradentale.lerp(t.lower_canine, 0.6);
+        let side = t.infradentale.lerp(t.lower_canine, LOWER_FRONT);
         (
             &LOWER,
             [t.infradentale, vec3(side.x, t.infradentale.y, side.z), t.lower_canine, t.lower_carnassial, t.lower_last],
@@ -139,7 +164,7 @@ pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
     };
     let down = if upper { -1.0 } else { 1.0 };
     // Incisors share the front; from the canine on each tooth has its place between the landmarks.
-    let canine = 3;
+    let canine = INCISORS;
     let carnassial = teeth.iter().position(|t| t.kind == Carnassial).unwrap_or(canine);
     let n = teeth.len();
     let seat = |(i, tooth): (usize, &'static Tooth)| {
@@ -149,11 +174,7 @@ pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
             (from..to).map(|k| 0.5 * (teeth[k].size.x + teeth[k + 1].size.x)).sum::<f32>()
         };
         let (a, b, share, room) = match i {
-            _ if i < canine => {
-                let front: f32 = teeth[..canine].iter().map(|t| t.size.x).sum();
-                let before: f32 = teeth[..i].iter().map(|t| t.size.x).sum();
-                (arch[0], arch[1], (before + 0.5 * teeth[i].size.x) / (front - 0.5 * teeth[canine - 1].size.x), 1.0)
-            }
+            _ if i < canine => (arch[0], arch[1], front_share(teeth, i), 1.0),
             _ if i <= carnassial => {
                 let room = arch[2].distance(arch[3]) / (run(canine, carnassial) * unit);
                 (arch[2], arch[3], run(canine, i) / run(canine, carnassial), room)
@@ -194,7 +215,7 @@ pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
 }
 
 /// The teeth of one jaw of one head: left ones, then their mirror images; `out` gets [`TOOTH_VERTICES`] for each.
-pub(in crate::rig) fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
+pub fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
     out.clear();
     for Seat { tooth, root, axes, size, .. } in seats(t, upper) {
         for (ring, &r) in RINGS.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Lip edges: the upper from the philtrum to the commissure, the lower inside it.
+//! Lip edges: the upper from the philtrum to the commissure, the lower inside it. They are sharp: what is placed here are
+//! the control points of the curve that the edge follows.
 
 use super::{Pins, sin_cos};
 use crate::math::ops;
@@ -16,14 +17,14 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
     let (w0, w1) = (s.muz_w0 / 2.0, s.muz_w1 / 2.0);
     let (fl, lt) = (s.flew, s.lip_t);
     let hang = |lip: f32| lip - 0.75 * fl + 0.95 * (1.0 - lt);
-    let (y1, y0) = (hang(s.lip1() + 0.12), hang(s.lip0() + 0.17));
+    let (y1, y0) = (hang(s.lip1() + 0.22), hang(s.lip0() + 0.17));
     const FRONT: f32 = 0.3;
     let slim = s.slim();
     let depth = 0.5 + 1.5 * slim;
     let side = vec3(0.62 * w1 + 0.8 * lt * slim, y1, s.muz_len - 0.3 - depth);
     if t < FRONT {
         let (sin, cos) = sin_cos(core::f32::consts::FRAC_PI_2 * t / FRONT);
-        let notch = s.lip1() + 0.12 + 0.63 * slim - 0.1 * fl;
+        let notch = s.lip1() + 0.22 + 0.63 * slim - 0.1 * fl;
         let y = notch + (y1 - notch) * smoothstep(0.0, 0.8 * FRONT, t);
         let x = if t == 0.0 { 0.0 } else { side.x * ops::powf(sin, 0.9) };
         return vec3(x, y, s.muz_len - 0.3 - depth * (1.0 - cos));
@@ -49,12 +50,14 @@ pub(super) fn place(pins: &mut Pins) {
     let undershot = smoothstep(-0.6, 0.1, s.jaw_len);
     for (k, u) in edge.iter().enumerate().take(7) {
         let t = k as f32 / 7.0;
-        let narrow = 0.86 + (0.935 - 0.86) * t;
+        let narrow = 0.82 + (0.92 - 0.82) * t;
+        // The sharp edge is lower than the fold of the lining above it, which it would cut; towards the soft corner less.
+        let drop = 0.35 * (1.0 - smoothstep(0.55, 0.86, t));
         let mut p = vec3(
             (u.x * narrow - 0.1).max(0.0),
-            // Behind the upper lip everywhere, so that nothing is seen between them.
-            u.y + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.34 * t * (1.0 - t),
-            u.z - (0.1 + 0.25 * s.slim()) * (1.0 - t),
+            // Inside the upper lip everywhere, so that nothing is seen between them.
+            u.y - drop + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.34 * t * (1.0 - t),
+            u.z - (0.2 + 0.25 * s.slim()) * (1.0 - t),
         );
         if k == 0 {
             p.x = 0.0;

@@ -1,6 +1,7 @@
 //! The function from proportions to the half mesh's control positions, in its written order: features, start, fit,
 //! tissue over bone, ear, limit.
 
+mod blink;
 mod ear;
 mod fit;
 mod lids;
@@ -19,6 +20,7 @@ use crate::math::ops;
 use glam::Vec3;
 use std::sync::Arc;
 
+pub(super) use blink::{close as close_lids, vertices as lid_vertices};
 pub use fit::{FitPlan, hollow, layers};
 pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;
@@ -133,8 +135,8 @@ impl Pins<'_> {
         lips::place(self);
         mouth::place(self);
         lids::place(self);
-        stations::place(self);
         ear::place_base(self);
+        stations::place(self);
     }
 }
 
@@ -161,6 +163,13 @@ pub struct Scratch {
     bone: tissue::Fields,
 }
 
+impl Scratch {
+    /// What the compensation of the last head aimed at.
+    pub(in crate::rig) fn aims(&self) -> &[Vec3] {
+        &self.rounds.start
+    }
+}
+
 impl DeformPlan {
     /// Finds the pinned vertices by placing the base head's features once, and the operators of the fit.
     pub fn new(half: &HalfMesh, handles: Handles, base_shape: &Proportions) -> Self {
@@ -174,7 +183,7 @@ impl DeformPlan {
         Pins { shape: base_shape, surface: &surface, handles: &handles, at: &mut at, buffer, record: Some(&mut kinds) }
             .place_all();
         let mut leather = vec![false; n];
-        for &v in handles.a.iter().flatten().chain(&handles.a5) {
+        for &v in handles.a.iter().flatten().chain(&handles.ear_end) {
             leather[v as usize] = true;
         }
         let mut anchors = base.clone();
@@ -201,7 +210,7 @@ impl DeformPlan {
     ) {
         let surface = Implicit::new(shape);
         self.features(shape, &surface, &mut scratch.rays, out);
-        for &v in self.handles.a.iter().flatten().chain(&self.handles.a5) {
+        for &v in self.handles.a.iter().flatten().chain(&self.handles.ear_end) {
             out[v as usize] = self.base[v as usize];
         }
         for (&v, &b) in self.handles.a[0].iter().zip(&self.handles.ear_base) {

@@ -14,7 +14,7 @@ pub(super) fn place(pins: &mut Pins) {
         let turn = [1.0, 0.9, 0.6, 0.3, 0.0, 0.0, 0.0][i - 3];
         let back = |p: f32| -0.4 * turn * p * (0.5 + 0.5 * k);
         let row = [
-            (h.mu[i][1], vec3(u.x + 0.45 * (l.x - u.x), u.y.max(l.y) + 0.16 * k, u.z.min(l.z) + back(0.4))),
+            (h.mu[i][1], vec3(u.x + 0.45 * (l.x - u.x), u.y.max(l.y) + 0.40 * k, u.z.min(l.z) + back(0.4))),
             (h.mu[i][2], vec3(0.8 * l.x, l.y.max(u.y) + 0.42 * k, l.z.min(u.z) + back(1.5))),
             (h.mu[i][3], vec3(0.0, l.y.max(u.y) + 0.75 * k, l.z.min(u.z) + back(2.5))),
             (h.ml[i][1], vec3((0.86 * l.x - 0.05).max(0.0), l.y - 0.14 * k, l.z + back(0.6))),

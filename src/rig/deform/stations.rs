@@ -8,8 +8,12 @@ use glam::{Vec3, vec3};
 const MUZZLE: [f32; 8] = [0.12, 0.235, 0.355, 0.48, 0.61, 0.735, 0.85, 0.965];
 /// Parts of the cranial length behind the nasion, rings 9 to 16.
 const CRANIUM: [f32; 8] = [0.07, 0.168, 0.27, 0.375, 0.49, 0.62, 0.76, 0.90];
-/// Head units along the neck's axis, rings 17 to 19.
-const NECK: [f32; 3] = [3.6, 5.6, 7.8];
+/// Head units along the neck's axis where it ends, ring 19.
+const NECK: f32 = 7.8;
+/// For the neck's columns 0 to 8: how much they start from the height of the crest instead of the rear of the ear's base,
+/// and how much from neither.
+const COLUMN: [[f32; 2]; 9] =
+    [[1.0, 0.0], [0.75, 0.0], [0.35, 0.0], [0.1, 0.0], [0.0, 0.0], [0.0, 0.35], [0.0, 0.75], [0.0, 1.0], [0.0, 1.0]];
 /// Degrees below forward of the chin's fan.
 const CHIN_FAN: [f32; 4] = [14.0, 36.0, 56.0, 74.0];
 
@@ -44,9 +48,11 @@ fn dorsal(pins: &mut Pins) {
     }
     let (start, dir) = s.neck_axis();
     let up = vec3(0.0, -dir.z, dir.y);
-    for (k, d) in NECK.into_iter().enumerate() {
-        let c = start + dir * d;
-        rays.push(Ray::new(h.s[17 + k][0], c + up * s.neck_d, -up, Layer::Whole));
+    pins.trace(&mut rays);
+    let crest = (pins.at[h.s[16][0] as usize] - start).dot(dir);
+    for (i, part) in [(17, 0.62), (18, 0.82), (19, 1.0)] {
+        let c = start + dir * (crest + (NECK - crest) * part);
+        rays.push(Ray::new(h.s[i][0], c + up * s.neck_d, -up, Layer::Whole));
     }
     pins.keep(rays);
 }
@@ -76,8 +82,8 @@ fn ventral(pins: &mut Pins) {
     let (start, dir) = s.neck_axis();
     let below = vec3(0.0, dir.z, -dir.y);
     let from = pins.at[h.l[10][14] as usize];
-    let end = start + dir * NECK[2] + below * (0.5 * s.neck_d);
-    rays.push(Ray::new(h.l[19][14], start + dir * NECK[2] + below * s.neck_d, -below, Layer::Whole));
+    let end = start + dir * NECK + below * (0.5 * s.neck_d);
+    rays.push(Ray::new(h.l[19][14], start + dir * NECK + below * s.neck_d, -below, Layer::Whole));
     for i in 11..19 {
         let t = (i - 10) as f32 / 9.0;
         let p = from + (end - from) * t;
@@ -135,21 +141,29 @@ fn sides(pins: &mut Pins) {
     }
     // Round the neck: its end is cut flat, the ring before it only guided.
     let (start, dir) = s.neck_axis();
+    let along = |v: u16| (pins.at[v as usize] - start).dot(dir);
+    let base = h.ear_base.iter().map(|&v| along(v)).fold(f32::NEG_INFINITY, f32::max);
+    let nape = along(h.s[16][0]);
     let up = vec3(0.0, -dir.z, dir.y);
     for j in 1..14 {
         let (sin, cos) = sin_cos(core::f32::consts::PI * j as f32 / 14.0);
         let out = up * cos + Vec3::X * sin;
         let reach = s.neck_d.max(s.neck_w);
         let v = if j < 10 { h.s[19][j] } else { h.l[19][j] };
-        rays.push(Ray::new(v, start + dir * NECK[2] + out * reach, -out, Layer::Whole));
+        rays.push(Ray::new(v, start + dir * NECK + out * reach, -out, Layer::Whole));
+        // Between the ear's base, or the crest, and the end; below the ear behind the jaw.
+        let [crest, side] = COLUMN.get(j).copied().unwrap_or([0.0, 1.0]);
+        let behind = base + (nape - base) * crest;
+        let between = |part: f32, below: f32| {
+            let d = behind + (NECK - behind) * part;
+            start + dir * (d + (below - d) * side) + out * reach
+        };
         if j < 9 {
-            // Behind the ears the first ring keeps its distance from their bases.
-            let d = NECK[0] + 0.2 * (1.0 - cos);
-            rays.push(Ray::new(h.s[17][j], start + dir * d + out * reach, -out, Layer::Whole));
+            rays.push(Ray::new(h.s[17][j], between(0.32, 3.6 + 0.2 * (1.0 - cos)), -out, Layer::Whole));
         }
         if j % 3 == 2 {
             let v = if j < 10 { h.s[18][j] } else { h.l[18][j] };
-            rays.push(Ray::guide(v, start + dir * NECK[1] + out * reach, -out, Layer::Whole));
+            rays.push(Ray::guide(v, between(0.66, 5.6), -out, Layer::Whole));
         }
     }
     pins.keep(rays);
@@ -180,8 +194,14 @@ fn eye_hollow(pins: &mut Pins, rays: &mut Vec<Ray>) {
     let brow = around(2).lerp(nasion, 0.57);
     let medial = at(h.of[1]).lerp(across(0.6).lerp(brow, 0.62), 0.76);
     let corner = around(0).lerp(across(0.815), 0.38);
-    for (v, p) in [(h.orbit[0], corner), (h.orbit[1], medial), (h.orbit[2], brow), (h.s[8][1], nasion.lerp(brow, 0.5))]
-    {
+    let below = around(11).lerp(at(h.s[7][5]), 0.35);
+    for (v, p) in [
+        (h.orbit[11], below),
+        (h.orbit[0], corner),
+        (h.orbit[1], medial),
+        (h.orbit[2], brow),
+        (h.s[8][1], nasion.lerp(brow, 0.5)),
+    ] {
         let on_skin = pins.surface.project(p, Layer::Upper, 4);
         pins.set(v, on_skin);
     }

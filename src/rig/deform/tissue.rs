@@ -42,9 +42,12 @@ struct Carried {
     layer: Layer,
 }
 
-/// Skull and mandible of the head at hand.
+/// Skull and mandible of the head at hand, and which vertices are still asked for.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Fields([BoneField; 2]);
+pub(super) struct Fields {
+    bones: [BoneField; 2],
+    open: Vec<u16>,
+}
 
 impl TissuePlan {
     /// The grids of the skin. Nose, lid margins, lips and leather have no bone below them, or their own place.
@@ -85,29 +88,43 @@ impl TissuePlan {
     ) {
         let landmarks = targets(measures, shape);
         let unit = shape.canonical_mm();
-        for (field, bone) in fields.0.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
+        for (field, bone) in fields.bones.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
             field.place(bone, &landmarks, unit);
         }
+        let Fields { bones, open } = fields;
+        open.clear();
+        open.extend(0..self.carried.len() as u16);
         for _ in 0..STEPS {
-            for eight in self.carried.chunks(8) {
-                let points: [Vec3; 8] =
-                    std::array::from_fn(|k| shape.metres(at[usize::from(eight[k.min(eight.len() - 1)].vertex)]));
-                let lanes = |axis: usize| F8(std::array::from_fn(|k| points[k][axis]));
-                let p = P8 { x: lanes(0), y: lanes(1), z: lanes(2) };
-                for field in &fields.0 {
-                    let near = field.distance8(p);
-                    for (k, carried) in eight.iter().enumerate() {
+            // What has not moved would be told the same again.
+            let n_open = open.len();
+            for from in (0..n_open).step_by(8) {
+                let eight: [u16; 8] = std::array::from_fn(|k| open[(from + k).min(n_open - 1)]);
+                let n = (n_open - from).min(8);
+                let mut moved = [false; 8];
+                for bone in bones.iter() {
+                    let points = eight.map(|c| shape.metres(at[usize::from(self.carried[usize::from(c)].vertex)]));
+                    let lanes = |axis: usize| F8(std::array::from_fn(|k| points[k][axis]));
+                    let near = bone.distance8(P8 { x: lanes(0), y: lanes(1), z: lanes(2) });
+                    for k in 0..n {
+                        let carried = self.carried[usize::from(eight[k])];
                         let least = carried.least * unit;
                         if near.0[k] < least {
                             let v = usize::from(carried.vertex);
-                            let (d, g) = field.sample(points[k], 0.2 * unit);
+                            let (d, g) = bone.sample(points[k], 0.2 * unit);
                             let normal = surface.sample(at[v], carried.layer).1.normalize_or_zero();
                             let slope = g.normalize_or_zero().dot(shape.direction(normal)).max(0.5);
                             at[v] += normal * (((least - d).max(0.0) / slope).min(FARTHEST * unit) / shape.scale);
+                            moved[k] = true;
                         }
                     }
                 }
+                for k in 0..n {
+                    if moved[k] {
+                        open.push(eight[k]);
+                    }
+                }
             }
+            open.drain(..n_open);
         }
     }
 }

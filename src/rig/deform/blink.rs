@@ -1,0 +1,139 @@
+//! Lids that close: margins and fold turn about an axis across the orbit through the middle of the ball, so that they
+//! slide over it.
+//!
+//! The upper lid goes most of the way (in dogs as in man the levator opens and closes the eye; the lower lid follows).
+//! Shut lids are found once for a head; between open and shut every vertex turns evenly.
+
+use crate::math::ops;
+use crate::rig::control::HalfRings;
+use crate::rig::eye::Eye;
+use crate::rig::handles::Handles;
+use glam::Vec3;
+
+/// The part of the slit that the upper lid closes.
+const UPPER: f32 = 0.86;
+/// How much of its margin's turn the fold of a lid makes: the skin over the ball lies on three rows, not two.
+const FOLLOWS: f32 = 0.6;
+/// By how much the margins' smooth curves pass each other, radians of the ball: 0.1 mm.
+const OVERLAP: f32 = 0.01;
+/// Between the inner margins, radians.
+const SPLIT: f32 = 0.03;
+/// Above the ball at least, parts of its radius: inner margin, outer margin, fold. Between two rows the skin runs nearer to
+/// the ball than they do, over the third of a turn that a large eye asks for by a fifth of the radius.
+const ABOVE: [f32; 3] = [0.02, 0.16, 0.4];
+/// How far a control vertex of a margin goes beyond the line where they meet, radians.
+const FARTHEST: f32 = 0.1;
+/// Rounds in which the margins find each other.
+const ROUNDS: usize = 6;
+
+/// The left orbit's axis and what lies around it.
+struct Hinge<'a> {
+    eye: &'a Eye,
+    /// Along the slit, upwards, and out of it; unit.
+    axes: [Vec3; 3],
+}
+
+/// A place by its turn about the hinge.
+#[derive(Clone, Copy)]
+struct Turned {
+    /// Along the hinge and away from it, metres.
+    along: f32,
+    away: f32,
+    /// Above the middle of the slit, radians.
+    angle: f32,
+}
+
+impl Hinge<'_> {
+    fn turned(&self, p: Vec3) -> Turned {
+        let [x, y, z] = self.axes.map(|axis| axis.dot(p - self.eye.centre));
+        Turned { along: x, away: ops::hypot(y, z), angle: ops::atan2(y, z) }
+    }
+
+    fn place(&self, t: Turned) -> Vec3 {
+        let [a, b, g] = self.axes;
+        self.eye.centre + a * t.along + (b * ops::sin(t.angle) + g * ops::cos(t.angle)) * t.away
+    }
+
+    /// Turned to an angle, and then not nearer to the ball than this.
+    fn slid(&self, p: Vec3, angle: f32, above: f32) -> Vec3 {
+        let p = self.place(Turned { angle, ..self.turned(p) });
+        let from = p - self.eye.centre;
+        let out = from.normalize_or(self.axes[2]);
+        let least = self.eye.reach(out) + above * self.eye.radius;
+        self.eye.centre + out * from.length().max(least)
+    }
+}
+
+/// Puts the left lids where they are when `closed` (0 to 1); `axes`: unit, those of the orbit in the head's frame; `rest`:
+/// the half's control positions with open lids, metres; `at`: scratch of the same length, of which the lids' vertices
+/// ([`vertices`]) are the result.
+pub fn close(
+    handles: &Handles,
+    rings: &HalfRings,
+    eye: &Eye,
+    axes: [Vec3; 3],
+    closed: f32,
+    rest: &[Vec3],
+    at: &mut Vec<Vec3>,
+) {
+    let hinge = Hinge { eye, axes };
+    at.clear();
+    at.extend_from_slice(rest);
+    shut(handles, rings, &hinge, rest, at);
+    for v in vertices(handles) {
+        let [open, shut] = [rest[v], at[v]].map(|p| hinge.turned(p));
+        let mix = |a: f32, b: f32| a + (b - a) * closed;
+        at[v] = hinge.place(Turned {
+            along: mix(open.along, shut.along),
+            away: mix(open.away, shut.away),
+            angle: mix(open.angle, shut.angle),
+        });
+    }
+}
+
+/// The half's vertices that move.
+pub fn vertices(handles: &Handles) -> impl Iterator<Item = usize> + '_ {
+    let rows = [&handles.of, &handles.er, &handles.ei];
+    // The corners stay.
+    rows.into_iter().flat_map(|row| (0..12).filter(|k| k % 6 != 0).map(|k| usize::from(row[k])))
+}
+
+fn shut(h: &Handles, rings: &HalfRings, hinge: &Hinge, rest: &[Vec3], at: &mut [Vec3]) {
+    let limit = |v: usize, at: &[Vec3]| {
+        // Kobbelt 2000, as in the compensation of what subdivision shrinks.
+        let a = (4.0 - 2.0 * ops::cos(core::f32::consts::TAU / rings.valence(v) as f32)) / 9.0;
+        let of_ring = 3.0 * a / (1.0 + 3.0 * a);
+        at[v] * (1.0 - of_ring) + rings.mean(v, at) * of_ring
+    };
+    let angle = |p: Vec3| hinge.turned(p).angle;
+    // Of upper and lower margin, where they meet.
+    let mut meeting: [[f32; 2]; 6] = std::array::from_fn(|k| {
+        let [upper, lower] = [k, (12 - k) % 12].map(|k| angle(rest[usize::from(h.er[k])]));
+        [upper + (lower - upper) * UPPER; 2]
+    });
+    for round in 0..=ROUNDS {
+        for (k, m) in meeting.iter().enumerate().skip(1) {
+            let line = 0.5 * (m[0] + m[1]);
+            for (side, k_of) in [k, 12 - k].into_iter().enumerate() {
+                let [of, er, ei] = [h.of[k_of], h.er[k_of], h.ei[k_of]].map(usize::from);
+                let up = if side == 0 { 1.0 } else { -1.0 };
+                let turn = m[side] - angle(rest[er]);
+                at[er] = hinge.slid(rest[er], m[side], ABOVE[1]);
+                at[ei] = hinge.slid(rest[ei], line + 0.5 * up * SPLIT, ABOVE[0]);
+                at[of] = hinge.slid(rest[of], angle(rest[of]) + FOLLOWS * turn, ABOVE[2]);
+            }
+        }
+        if round == ROUNDS {
+            break;
+        }
+        for (k, m) in meeting.iter_mut().enumerate().skip(1) {
+            let [upper, lower] = [k, 12 - k].map(|k| angle(limit(usize::from(h.er[k]), at)));
+            let apart = upper - lower + OVERLAP;
+            // A smooth curve stays behind its control vertices.
+            let beyond = 0.5 * (m[1] - m[0]);
+            let step = (0.5 * apart).clamp(-0.05, (FARTHEST - beyond).max(-0.05));
+            m[0] -= step;
+            m[1] += step;
+        }
+    }
+}
