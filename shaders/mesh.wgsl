@@ -125,8 +125,11 @@ fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
     return (sum / 7.0 - 0.5) * 7.6;
 }
 
-// Smooth noise of blobs `width` metres across, about -1 to 1.
+// Smooth noise of blobs `width` metres across, about -1 to 1; none where strands have their own.
 fn blobs(position: vec3<f32>, width: f32) -> vec4<f32> {
+    if globals.coat.x >= 1.0 {
+        return vec4<f32>(0.0);
+    }
     let coarse = textureSampleLevel(noise_block, noise_sampler, SKEW * position / (width * 64.0), 0.0);
     let fine = textureSampleLevel(noise_block, noise_sampler, position.zxy * 2.1 / (width * 64.0), 0.0);
     return (coarse + 0.5 * fine - 0.75) * 2.6;

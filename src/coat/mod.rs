@@ -1,6 +1,6 @@
 //! The coat: where each hair stands, how long it is there and which way it is combed.
 //!
-//! Lifetimes: [`Root`]s once per topology; the numbers of [`groom`] once per breed's look. What a hair looks like is worked
+//! Lifetimes: [`Root`]s once per topology; the numbers of [`groom()`] once per breed's look. What a hair looks like is worked
 //! out where it is drawn, from these and from the skin as it is at that moment.
 
 mod groom;
