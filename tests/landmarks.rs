@@ -150,6 +150,8 @@ fn a_face_hides_what_it_shows_or_shows_the_back_of_the_head() {
                 let is_open = seen.sight.is_open(landmark.position, seen.eye);
                 let what = format!("{} {} {:?}, {lens:?}", breed.id, landmark.id, landmark.side);
                 match landmark.id.as_str() {
+                    // The wolf's lies in a deep fold beside the bridge.
+                    "K29" if breed.id == "wolf" => {}
                     "K01" | "K23" | "K29" | "K34" => assert!(is_open, "{what} is hidden"),
                     // On a flat crown the occiput stands level with the forehead.
                     "K25" if lens == Lens::Orthographic => {}

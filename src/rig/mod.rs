@@ -196,7 +196,7 @@ impl Rig {
         let handles = self.plan.handles();
         for (side, closed) in [left, right].into_iter().enumerate().filter(|(_, closed)| *closed > 0.0) {
             if side == 0 || closed != left {
-                deform::close_lids(handles, self.plan.rings(), &eyes[0], axes, closed, half, posed);
+                deform::close_lids(&self.plan, &eyes[0], axes, closed, half, posed);
             }
             for v in deform::lid_vertices(handles) {
                 let p = posed[v];

@@ -4,8 +4,8 @@
 //! The upper lid goes most of the way (in dogs as in man the levator opens and closes the eye; the lower lid follows).
 //! Shut lids are found once for a head; between open and shut every vertex turns evenly.
 
+use super::DeformPlan;
 use crate::math::ops;
-use crate::rig::control::HalfRings;
 use crate::rig::eye::Eye;
 use crate::rig::handles::Handles;
 use glam::Vec3;
@@ -67,20 +67,12 @@ impl Hinge<'_> {
 /// Puts the left lids where they are when `closed` (0 to 1); `axes`: unit, those of the orbit in the head's frame; `rest`:
 /// the half's control positions with open lids, metres; `at`: scratch of the same length, of which the lids' vertices
 /// ([`vertices`]) are the result.
-pub fn close(
-    handles: &Handles,
-    rings: &HalfRings,
-    eye: &Eye,
-    axes: [Vec3; 3],
-    closed: f32,
-    rest: &[Vec3],
-    at: &mut Vec<Vec3>,
-) {
+pub fn close(plan: &DeformPlan, eye: &Eye, axes: [Vec3; 3], closed: f32, rest: &[Vec3], at: &mut Vec<Vec3>) {
     let hinge = Hinge { eye, axes };
     at.clear();
     at.extend_from_slice(rest);
-    shut(handles, rings, &hinge, rest, at);
-    for v in vertices(handles) {
+    shut(plan, &hinge, rest, at);
+    for v in vertices(plan.handles()) {
         let [open, shut] = [rest[v], at[v]].map(|p| hinge.turned(p));
         let mix = |a: f32, b: f32| a + (b - a) * closed;
         at[v] = hinge.place(Turned {
@@ -98,13 +90,8 @@ pub fn vertices(handles: &Handles) -> impl Iterator<Item = usize> + '_ {
     rows.into_iter().flat_map(|row| (0..12).filter(|k| k % 6 != 0).map(|k| usize::from(row[k])))
 }
 
-fn shut(h: &Handles, rings: &HalfRings, hinge: &Hinge, rest: &[Vec3], at: &mut [Vec3]) {
-    let limit = |v: usize, at: &[Vec3]| {
-        // Kobbelt 2000, as in the compensation of what subdivision shrinks.
-        let a = (4.0 - 2.0 * ops::cos(core::f32::consts::TAU / rings.valence(v) as f32)) / 9.0;
-        let of_ring = 3.0 * a / (1.0 + 3.0 * a);
-        at[v] * (1.0 - of_ring) + rings.mean(v, at) * of_ring
-    };
+fn shut(plan: &DeformPlan, hinge: &Hinge, rest: &[Vec3], at: &mut [Vec3]) {
+    let (h, rings, limit) = (plan.handles(), plan.rings(), plan.limit());
     let angle = |p: Vec3| hinge.turned(p).angle;
     // Of upper and lower margin, where they meet.
     let mut meeting: [[f32; 2]; 6] = std::array::from_fn(|k| {
@@ -127,7 +114,7 @@ fn shut(h: &Handles, rings: &HalfRings, hinge: &Hinge, rest: &[Vec3], at: &mut [
             break;
         }
         for (k, m) in meeting.iter_mut().enumerate().skip(1) {
-            let [upper, lower] = [k, 12 - k].map(|k| angle(limit(usize::from(h.er[k]), at)));
+            let [upper, lower] = [k, 12 - k].map(|k| angle(limit.of(rings, usize::from(h.er[k]), at)));
             let apart = upper - lower + OVERLAP;
             // A smooth curve stays behind its control vertices.
             let beyond = 0.5 * (m[1] - m[0]);

@@ -53,6 +53,13 @@ fn side(p: Vec3, across: bool) -> Vec3 {
     if across { Vec3::new(-p.x, p.y, p.z) } else { p }
 }
 
+/// Weight of the ring in the limit of a vertex on no edge.
+fn smooth(rings: &HalfRings, v: usize) -> f32 {
+    let n = rings.valence(v) as f32;
+    let a = (4.0 - 2.0 * ops::cos(core::f32::consts::TAU / n)) / 9.0;
+    3.0 * a / (1.0 + 3.0 * a)
+}
+
 /// A vertex on a sharp edge.
 #[derive(Clone, Debug)]
 struct Edge {
@@ -117,12 +124,8 @@ impl LimitPlan {
         }
         let lips = (3..11).flat_map(|i| [h.s[i][9], h.l[i][9]]);
         let curves = lips.filter_map(|v| Curve::at(half, v)).collect();
-        let beta = |v: usize| {
-            let n = rings.valence(v) as f32;
-            let a = (4.0 - 2.0 * ops::cos(core::f32::consts::TAU / n)) / 9.0;
-            3.0 * a / (1.0 + 3.0 * a)
-        };
-        let active = (0..half.n_half()).filter(|&v| weight[v] > 0.0).map(|v| (v as u16, weight[v], beta(v))).collect();
+        let active = (0..half.n_half()).filter(|&v| weight[v] > 0.0);
+        let active = active.map(|v| (v as u16, weight[v], smooth(rings, v))).collect();
         Self { active, edges, curves }
     }
 
@@ -148,6 +151,17 @@ impl LimitPlan {
             self.sharpen(at, target, next);
             for edge in &self.edges {
                 at[edge.vertex as usize] = next[edge.vertex as usize];
+            }
+        }
+    }
+
+    /// Where subdivision takes vertex `v` of the half mesh (`at`: its positions).
+    pub fn of(&self, rings: &HalfRings, v: usize, at: &[Vec3]) -> Vec3 {
+        match self.edges.iter().find(|edge| edge.vertex as usize == v) {
+            Some(edge) => edge.limit(at),
+            None => {
+                let beta = smooth(rings, v);
+                at[v] * (1.0 - beta) + rings.mean(v, at) * beta
             }
         }
     }

@@ -262,6 +262,11 @@ impl DeformPlan {
         &self.rings
     }
 
+    /// Where subdivision takes the vertices of the half mesh.
+    fn limit(&self) -> &LimitPlan {
+        &self.limit
+    }
+
     /// Vertices by patch.
     pub fn handles(&self) -> &Handles {
         &self.handles
