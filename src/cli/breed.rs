@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// How often a dog is drawn again whose skin would fold. One random dog in six is such a dog, a puppy hardly ever.
+/// How often a dog is drawn again whose skin would fold. One random dog in eight is such a dog, a puppy hardly ever.
 const MOST_DRAWS: u32 = 100;
 
 /// Makes the dogs, writes their files, prints the paths.
