@@ -453,8 +453,7 @@ fn margin_reach(world: &World, eye: &Eye, skin: &[Vec3]) -> (f32, f32) {
     reach.fold((f32::INFINITY, 0.0), |(lo, hi), r| (lo.min(r), hi.max(r)))
 }
 
-/// Edges that may fold flat: the corner of the closed mouth, the lining's end, leather, and the orbit's corner beside the nose, where
-/// the fold of a large lid lies against the stop.
+/// Edges that may fold flat: the corner of the closed mouth, the lining's end, and leather.
 fn may_fold(name: &str) -> bool {
     let has = |start: &str| name.split([' ', '-', '(', ')']).any(|v| v.starts_with(start));
     MAY_FOLD.into_iter().any(has)

@@ -1,7 +1,7 @@
 //! What stands behind the head: a plain or graded ground, or nothing.
 
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
-use super::targets::{COLOUR, DEPTH, SAMPLES};
+use super::targets::{COLOUR, depth, samples};
 use glam::Vec4;
 
 /// Behind the head. Colours are sRGB bytes as written in files.
@@ -63,14 +63,8 @@ impl GroundPass {
                     buffers: &[],
                 },
                 primitive: Default::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: DEPTH,
-                    depth_write_enabled: Some(false),
-                    depth_compare: Some(wgpu::CompareFunction::Always),
-                    stencil: Default::default(),
-                    bias: Default::default(),
-                }),
-                multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+                depth_stencil: depth(false, wgpu::CompareFunction::Always),
+                multisample: samples(),
                 fragment: Some(wgpu::FragmentState {
                     module: &module,
                     entry_point: Some("fragment"),

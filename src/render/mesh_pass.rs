@@ -2,7 +2,7 @@
 
 use super::head_buffers::HeadBuffers;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
-use super::targets::{COLOUR, DEPTH, SAMPLES};
+use super::targets::{COLOUR, depth, samples};
 use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
@@ -155,14 +155,8 @@ fn pipeline(
         },
         // Both sides: one looks into nostrils and into an open mouth. Of what is seen through, the near side.
         primitive: wgpu::PrimitiveState { cull_mode: clear.then_some(wgpu::Face::Back), ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(!clear),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+        depth_stencil: depth(!clear, wgpu::CompareFunction::Less),
+        multisample: samples(),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fragment"),

@@ -6,7 +6,7 @@
 use super::head_buffers::{HeadBuffers, buffer};
 use super::mesh_pass::MeshPass;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
-use super::targets::{COLOUR, DEPTH, SAMPLES};
+use super::targets::{COLOUR, depth, samples};
 use crate::coat::Coat;
 use crate::frame::Revisions;
 use glam::Vec4;
@@ -218,14 +218,8 @@ fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::P
             buffers: &[],
         },
         primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+        depth_stencil: depth(true, wgpu::CompareFunction::Less),
+        multisample: samples(),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fragment"),

@@ -8,6 +8,22 @@ pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// widgets blend encoded values, show the same picture.
 pub(super) const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
+/// How a pass of the picture tests and writes depth.
+pub(super) fn depth(writes: bool, compare: wgpu::CompareFunction) -> Option<wgpu::DepthStencilState> {
+    Some(wgpu::DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(writes),
+        depth_compare: Some(compare),
+        stencil: Default::default(),
+        bias: Default::default(),
+    })
+}
+
+/// The samples of every pass of the picture.
+pub(super) fn samples() -> wgpu::MultisampleState {
+    wgpu::MultisampleState { count: SAMPLES, ..Default::default() }
+}
+
 /// Multisampled colour and depth, and the resolved colour that can be copied or shown.
 #[derive(Debug)]
 pub struct Targets {

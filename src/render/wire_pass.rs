@@ -6,7 +6,7 @@
 
 use super::head_buffers::buffer;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
-use super::targets::{COLOUR, DEPTH, SAMPLES};
+use super::targets::{COLOUR, depth, samples};
 use crate::frame::{Frame, Revisions};
 use glam::{Vec3, Vec4};
 
@@ -245,14 +245,8 @@ fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::P
             })],
         },
         primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::LessEqual),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
+        depth_stencil: depth(false, wgpu::CompareFunction::LessEqual),
+        multisample: samples(),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fragment"),

@@ -53,6 +53,9 @@ pub(super) fn place(pins: &mut Pins) {
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free but before the hollow of the stop, and starts around this eye.
+        if !(3..11).contains(&k) {
+            continue;
+        }
         let around = on_ball(x * 1.45, y * 1.75, 1.5);
         let around = pins.surface.project(vec3(around.x.max(0.3 * eye.x), around.y, around.z), Layer::Whole, 4);
         pins.set_guide(pins.handles.orbit[k], around);
