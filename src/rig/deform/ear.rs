@@ -17,6 +17,9 @@ const ROOT: [f32; 4] = [0.10, 0.24, 0.42, 0.64];
 /// Where the last ring stands, as a part of the length.
 const END: f32 = 0.955;
 
+/// Where the base's front vertex stands: radians from the head's front, towards the crown.
+const START: f32 = -0.55;
+
 /// Gap between leather and skin, head units, at a part of the length.
 fn clearance(part: f32) -> f32 {
     0.05 + 0.25 * smoothstep(0.0, 0.6, part)
@@ -36,7 +39,8 @@ fn axes(e: &EarProportions) -> [Vec3; 3] {
     [out, across, out.cross(across)]
 }
 
-/// The loop on the skull from which the leather rises.
+/// The loop on the skull from which the leather rises. Its outline turns with the leather, its vertices do not: they keep
+/// their places among those of temple, crown and nape, and the leather's first step takes the turn.
 pub(super) fn place_base(pins: &mut Pins) {
     let e = &pins.shape.ear;
     let [_, across, outer] = axes(e);
@@ -45,8 +49,10 @@ pub(super) fn place_base(pins: &mut Pins) {
     let along = (across - normal * normal.dot(across)).normalize_or(Vec3::NEG_Z);
     let side = normal.cross(along);
     let inner = if side.dot(outer) > 0.0 { -side } else { side };
+    let rearwards = (Vec3::NEG_Z + normal * normal.z).normalize_or(along);
+    let turn = ops::atan2(rearwards.dot(inner), rearwards.dot(along));
     for k in 0..12 {
-        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0);
+        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0 + START - turn);
         let p = centre + (along * -cos + inner * (0.62 * sin)) * (0.5 * e.base);
         let p = pins.surface.project(p, Layer::Whole, 5);
         pins.set(pins.handles.ear_base[k], p);
