@@ -550,6 +550,20 @@ fn sheet_draws_the_breeds_and_views_asked_for() {
 }
 
 #[test]
+fn a_sheet_has_not_a_picture_for_each_dress() {
+    let folder = folder();
+    let path = folder.path().join("gallery.png");
+    let sheet = ["sheet", "--breeds", "pug", "--views", "side", "--level", "1", "--hair", "2000", "-o", text(&path)];
+    let size = |dress: &str| {
+        done(&[&sheet[..], &["--dress", dress]].concat());
+        png_size(&std::fs::read(&path).unwrap())
+    };
+    let (one, all) = (size("coat"), size("clay,skin,coat"));
+    assert_eq!(all, (3 * one.0, one.1));
+    refused(&["sheet", "--dress", "cloth", "-o", text(&path)], 2, &["clay", "skin", "coat"]);
+}
+
+#[test]
 fn an_atlas_has_not_a_strip_for_each_measure_of_its_groups() {
     let folder = folder();
     let path = folder.path().join("atlas.png");

@@ -2,7 +2,7 @@
 
 use super::values::{self, Ground, Setting, Share};
 use crate::frame::Layers;
-use crate::render::{Lens, Preset, Samples, View as Direction};
+use crate::render::{Dress, Lens, Preset, Samples, View as Direction};
 use crate::subdiv::{BoundaryRule, Creasing, LoopWeights, Rim, Scheme};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -249,6 +249,9 @@ pub(super) struct Sheet {
         allow_hyphen_values = true
     )]
     pub views: Views,
+    /// Each view in these, with commas between: clay, skin (colours without hair), coat; without it, as the scene has it
+    #[arg(long, value_name = "clay,skin,coat", value_parser = values::dress(), value_delimiter = ',')]
+    pub dress: Vec<Dress>,
     /// Width and height of the whole sheet, pixels; without it, cells of 320 by 320
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub size: Option<Size>,

@@ -87,7 +87,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let cell = match args.size {
         Some(size) => {
             let across = args.columns as usize;
-            Sheet::cell_within(size, breeds.len().div_ceil(across), args.views.len() * across)
+            Sheet::cell_within(size, breeds.len().div_ceil(across), args.views.len() * args.dress.len().max(1) * across)
         }
         None => [CELL, CELL],
     };
@@ -99,6 +99,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     sheet.shading = shading(&args.scene);
     sheet.n_strands = n_strands;
     sheet.heads_across = args.columns;
+    sheet.dresses.clone_from(&args.dress);
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
     }

@@ -3,7 +3,7 @@
 use super::args::Lids;
 use crate::anatomy::{colour, nearest};
 use crate::coat;
-use crate::render::{Background, Preset, View};
+use crate::render::{Background, Dress, Preset, View};
 use crate::subdiv::Scheme;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -182,6 +182,11 @@ pub(super) fn word<T: Copy + Send + Sync + 'static>(
         let found = words.iter().find(|(name, _)| *name == text);
         found.map(|(_, value)| *value).ok_or("no such word")
     })
+}
+
+/// A dress of a sheet's heads.
+pub(super) fn dress() -> impl TypedValueParser<Value = Dress> {
+    word(&Dress::ALL.map(|dress| (dress.name(), dress)))
 }
 
 fn number(text: &str) -> Result<f64, String> {

@@ -38,6 +38,6 @@ pub use picture::Picture;
 pub use preset::{Preset, PresetError};
 pub use samples::{Samples, SamplesError};
 pub use shader_source::{ShaderError, ShaderFile, ShaderSources};
-pub use sheet::Sheet;
+pub use sheet::{Dress, Sheet};
 pub use subdivide_pass::{PlanBuffers, SubdividePass};
 pub use targets::Targets;
