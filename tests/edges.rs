@@ -15,14 +15,12 @@ use londra::subdiv::{Evaluator, Plan, PlanOptions, Positions, Scheme, Tags};
 use settings::World;
 use std::collections::BTreeSet;
 
-/// Loops that are edges, without the corner of the mouth, which is soft.
+/// Loops that are edges.
 const EDGES: [&str; 4] = ["nose_outline", "upper_lip", "lower_lip", "lid_outer"];
-const SOFT: &str = "s.10.9";
 
 /// The vertices of an edge, in order.
 fn edge(world: &World, name: &str) -> Vec<u16> {
-    let half = world.rig.half();
-    half.loops[name].iter().copied().filter(|&v| half.tags[v as usize] != SOFT).collect()
+    world.rig.half().loops[name].clone()
 }
 
 /// Those of them on which the edge goes on to both sides.

@@ -14,6 +14,14 @@ use glam::Vec3;
 const UPPER: f32 = 0.86;
 /// How much of its margin's turn the fold of a lid makes: the skin over the ball lies on three rows, not two.
 const FOLLOWS: f32 = 0.6;
+/// The least part of the way from a shut margin to the orbit's loop at which the fold lies, where it was open so far, and
+/// the angle from which on that loop is no farther, radians.
+const EVEN: f32 = 0.4;
+const FAR: f32 = 1.9;
+/// The turn between two rows beyond which the fold lies higher, radians, and how much higher for each, parts of the ball's
+/// radius.
+const WIDE: f32 = 1.0;
+const STRETCHED: f32 = 0.5;
 /// By how much the margins' smooth curves pass each other, radians of the ball: 0.1 mm.
 const OVERLAP: f32 = 0.01;
 /// Between the inner margins, radians.
@@ -107,7 +115,13 @@ fn shut(plan: &DeformPlan, hinge: &Hinge, rest: &[Vec3], at: &mut [Vec3]) {
                 let turn = m[side] - angle(rest[er]);
                 at[er] = hinge.slid(rest[er], m[side], ABOVE[1]);
                 at[ei] = hinge.slid(rest[ei], line + 0.5 * up * SPLIT, ABOVE[0]);
-                at[of] = hinge.slid(rest[of], angle(rest[of]) + FOLLOWS * turn, ABOVE[2]);
+                // Where the skin beyond the fold would be stretched thin over the ball, the fold follows less.
+                let (open, orbit) = (angle(rest[of]), angle(rest[usize::from(h.orbit[k_of])]).clamp(-FAR, FAR));
+                let even = m[side] + EVEN * (orbit - m[side]);
+                let follows = up * (up * (open + FOLLOWS * turn)).max((up * even).min(up * open));
+                let spans = [up * (follows - m[side]), up * (orbit - follows)];
+                let wide = spans.map(|span| (span - WIDE).max(0.0));
+                at[of] = hinge.slid(rest[of], follows, ABOVE[2] + STRETCHED * (wide[0] + wide[1]));
             }
         }
         if round == ROUNDS {

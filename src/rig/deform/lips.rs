@@ -4,6 +4,7 @@
 use super::{Pins, sin_cos};
 use crate::math::ops;
 use crate::rig::implicit::Layer;
+use crate::rig::proportions::Proportions;
 use glam::{Vec3, vec3};
 
 fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
@@ -35,6 +36,29 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
     side + (corner - side) * u + vec3(0.0, raise, 0.0)
 }
 
+/// How far the lower lip's margin lies inside the upper's, head units: everywhere, and how much more where an undershot
+/// jaw goes forwards below it, and before the corner.
+const INSIDE: [f32; 3] = [0.2, 0.1, 0.08];
+/// How far it stands above it: everywhere, over an undershot jaw, and before the corner, where both come together.
+const ABOVE: [f32; 3] = [0.08, 0.04, -0.06];
+
+/// Out of the mouth at vertex `k` of the upper lip's edge (muzzle frame): horizontal, across the line of the lips.
+pub(super) fn outwards(edge: &[Vec3; 8], k: usize) -> Vec3 {
+    let along = edge[(k + 1).min(7)] - edge[k.saturating_sub(1)];
+    if k == 0 { Vec3::Z } else { vec3(-along.z, 0.0, along.x).normalize_or(Vec3::Z) }
+}
+
+/// The lower lip's edge beside vertex `k` of the upper's (muzzle frame).
+fn lower(s: &Proportions, edge: &[Vec3; 8], k: usize) -> Vec3 {
+    let t = k as f32 / 7.0;
+    let under = smoothstep(-0.7, 0.1, s.jaw_len) * (1.0 - smoothstep(0.25, 0.75, t));
+    let corner = smoothstep(0.7, 0.86, t);
+    let inside = INSIDE[0] + INSIDE[1] * under + INSIDE[2] * corner;
+    let above = ABOVE[0] + (ABOVE[1] - ABOVE[0]) * under + (ABOVE[2] - ABOVE[0]) * corner;
+    let p = edge[k] - outwards(edge, k) * inside + Vec3::Y * above;
+    p.with_x(p.x.max(0.0))
+}
+
 pub(super) fn place(pins: &mut Pins) {
     let s = pins.shape;
     let mut edge = [Vec3::ZERO; 8];
@@ -46,24 +70,8 @@ pub(super) fn place(pins: &mut Pins) {
         *e = s.muzzle_from_head(p);
         pins.set(pins.handles.s[3 + k][9], p);
     }
-    // Undershot jaws carry the lower lip in front of the upper.
-    let undershot = smoothstep(-0.6, 0.1, s.jaw_len);
-    for (k, u) in edge.iter().enumerate().take(7) {
-        let t = k as f32 / 7.0;
-        let narrow = 0.82 + (0.92 - 0.82) * t;
-        // The sharp edge is lower than the fold of the lining above it, which it would cut; towards the soft corner less.
-        let drop = 0.35 * (1.0 - smoothstep(0.55, 0.86, t));
-        let mut p = vec3(
-            (u.x * narrow - 0.1).max(0.0),
-            // Inside the upper lip everywhere, so that nothing is seen between them.
-            u.y - drop + (0.30 + 0.1 * s.flew.max(0.0)) * (1.0 - t) + 0.34 * t * (1.0 - t),
-            u.z - (0.2 + 0.25 * s.slim()) * (1.0 - t),
-        );
-        if k == 0 {
-            p.x = 0.0;
-            p.y -= 0.30 * undershot;
-            p.z += (s.jaw_z() - 0.05 - p.z) * undershot;
-        }
-        pins.set(pins.handles.l[3 + k][9], s.head_from_muzzle(p));
+    // The lower lip runs beside the upper one, just inside it and a little higher, so that nothing is seen between them.
+    for k in 0..7 {
+        pins.set(pins.handles.l[3 + k][9], s.head_from_muzzle(lower(s, &edge, k)));
     }
 }
