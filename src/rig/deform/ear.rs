@@ -216,9 +216,12 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; SECTIONS] {
     let grown = (0.6 * e.base / e.length.max(0.1)).clamp(0.18, 0.36);
     let mut sections = [Section::default(); SECTIONS];
     let (mut p, mut ring) = (root, 0);
-    // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears.
+    // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears. Wide leather
+    // turns over a longer way, so that the margin on the inner side of the turn does not run into itself.
+    let wide = 2.2 * e.sweep * 0.5 * e.width / e.length.max(0.1);
+    let ramp = (0.55 * 0.55 + wide * wide).sqrt();
     let turn = |s: f32, v: Vec3| {
-        let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, 0.55, s));
+        let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, ramp, s));
         vec3(v.x, v.y * cs - v.z * ss, v.y * ss + v.z * cs)
     };
     for n in 0..STEPS {
@@ -366,21 +369,21 @@ struct Obstacles<'a> {
     radius: f32,
 }
 
+/// The nearer of two obstacles, each a distance and an outward normal, rounded where they are equally near.
+fn nearer(a: (f32, Vec3), b: (f32, Vec3)) -> (f32, Vec3) {
+    const ROUND: f32 = 0.5;
+    let h = (0.5 + 0.5 * (b.0 - a.0) / ROUND).clamp(0.0, 1.0);
+    (b.0 + (a.0 - b.0) * h - ROUND * h * (1.0 - h), b.1.lerp(a.1, h))
+}
+
 impl Obstacles<'_> {
     /// Distance and outward normal at two points: of the head, of its lids, and of the median plane.
     fn sample2(&self, a: Vec3, b: Vec3) -> [(f32, Vec3); 2] {
         let [sa, sb] = self.surface.sample2(a, b, Layer::Whole);
         [(a, sa), (b, sb)].map(|(p, (f, g))| {
-            let plane = p.x - APART;
             let from_eye = p - self.eye;
-            let lids = from_eye.length() - self.radius;
-            if plane < f.min(lids) {
-                (plane, Vec3::X)
-            } else if lids < f {
-                (lids, from_eye.normalize_or_zero())
-            } else {
-                (f, g.normalize_or_zero())
-            }
+            let lids = (from_eye.length() - self.radius, from_eye.normalize_or_zero());
+            nearer((p.x - APART, Vec3::X), nearer((f, g.normalize_or_zero()), lids))
         })
     }
 }
@@ -409,15 +412,22 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
                 let b = s.at(e, base, places[1], faces[1]);
                 [near[2 * k], near[2 * k + 1]] = head.sample2(a, b);
             }
-            let (nearest, normal) =
-                near.iter().fold((f32::INFINITY, Vec3::ZERO), |n, &g| if g.0 < n.0 { g } else { n });
+            // What is deepest in the head counts most, and what is nearest to it, without a jump from one to another.
+            let (mut deep, mut out, mut normal, mut nearest) = (0.0, Vec3::ZERO, Vec3::ZERO, f32::INFINITY);
+            for (f, n) in near {
+                let depth = (clearance(s.part) - f).max(0.0);
+                (deep, out) = (deep + depth, out + n * (depth * depth));
+                let apart = f.max(0.0) + 0.3;
+                (normal, nearest) = (normal + n / (apart * apart * apart), nearest.min(f));
+            }
+            let (out, normal) = (out / deep.max(1e-4), normal.normalize_or_zero());
             let gap = nearest - clearance(s.part);
             // Weight: a hanging leather turns down where it is in the air, and glides to the head where that is beside it.
             let beside = vec3(normal.x, 0.0, normal.z) * smoothstep(-0.5, -0.1, normal.y);
             let glide = (gap / 3.0).clamp(0.0, 0.5) * length + way.dot(beside);
             let air = smoothstep(0.3, 2.0, gap);
             let weight = beside * (-0.5 * glide) + Vec3::NEG_Y * (0.3 * air * (length + way.y));
-            let push = normal * (-gap).max(0.0) + weight * sink;
+            let push = out + weight * sink;
             let push = push.clamp_length_max(0.7 * length);
             if step + 1 == LAYING {
                 s.centre += push;
@@ -445,8 +455,8 @@ fn clear(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sect
             for (column, push) in push.iter_mut().enumerate() {
                 let [inner, outer] = [-1.0, 1.0].map(|face| s.at(e, base, 2 * column, face));
                 let [a, b] = head.sample2(inner, outer);
-                let (f, normal) = if a.0 < b.0 { a } else { b };
-                *push = normal * (least - f).max(0.0);
+                let [da, db] = [a, b].map(|(f, _)| (least - f).max(0.0));
+                *push = (a.1 * (da * da) + b.1 * (db * db)) / (da + db).max(1e-4);
             }
             for place in 0..PLACES {
                 let (a, b) = (push[place / 2], push[place.div_ceil(2)]);
