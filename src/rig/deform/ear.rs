@@ -117,7 +117,7 @@ impl Section {
             let deep = if own.z < 0.0 { own.z / (1.0 - own.z * self.bend / 0.6) } else { own.z };
             let fixed = base.at[k] - base.middle;
             let turned = self.head(vec3(own.x, own.y, deep));
-            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.6, 1.0 - self.keep));
+            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.3, 1.0 - self.keep));
             p = p + (target - p) * (hold * self.keep);
         }
         p + self.push[place]
@@ -175,7 +175,7 @@ fn parts(e: &EarProportions) -> [f32; SECTIONS] {
 
 /// Half the way over which the sheet bends. Leather folds no sharper than its thickness allows.
 fn softness(e: &EarProportions) -> f32 {
-    let least = 0.8 * fold(e) * e.thickness;
+    let least = 1.1 * fold(e) * e.thickness;
     let wanted = e.fold_softness * e.length;
     (wanted * wanted + least * least).sqrt()
 }
@@ -294,13 +294,13 @@ const BURR: [(usize, usize, f32); 10] = [
     (0, 2, 0.03),
     (0, 3, 0.02),
     (0, 4, 0.06),
-    (1, 2, 0.09),
-    (1, 3, -0.10),
-    (1, 4, 0.08),
-    (2, 3, -0.05),
-    (3, 2, 0.05),
-    (3, 3, 0.10),
-    (3, 4, 0.05),
+    (1, 2, 0.06),
+    (1, 3, -0.05),
+    (1, 4, 0.06),
+    (2, 3, -0.04),
+    (3, 2, 0.03),
+    (3, 3, 0.05),
+    (3, 4, 0.04),
 ];
 
 /// The cutaneous marginal pouch (Henry's pocket) on the rear margin: how deep it is at each ring, parts of half the width.
@@ -355,10 +355,11 @@ fn held(e: &EarProportions) -> f32 {
 }
 
 /// How much the leather lies on the head at a part of its length: where it hangs, beyond its fold; not a tip that only
-/// falls over high in the air, and not a rose ear, which its own folds hold.
+/// falls over high in the air. A rose ear, which its own folds hold, lies less.
 fn lies(e: &EarProportions, part: f32) -> f32 {
     let in_the_air = smoothstep(0.26, 0.42, e.fold_height);
-    covers(e) * (1.0 - in_the_air) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.22, part)
+    let hanging = covers(e) * (1.0 - in_the_air) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.22, part);
+    hanging + 0.6 * hang(e) * held(e) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.4, part)
 }
 
 /// What the leather may not enter.
@@ -427,14 +428,14 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
             let glide = (gap / 3.0).clamp(0.0, 0.5) * length + way.dot(beside);
             let air = smoothstep(0.3, 2.0, gap);
             let weight = beside * (-0.5 * glide) + Vec3::NEG_Y * (0.3 * air * (length + way.y));
-            let push = out + weight * sink;
+            let push = out + (weight * sink).clamp_length_max(0.1 * length);
             let push = push.clamp_length_max(0.7 * length);
             if step + 1 == LAYING {
                 s.centre += push;
                 break;
             }
             // Rings of the root, which are near to each other, rather move than turn.
-            let lever = (1.0 - s.keep) * length / (length + 0.15 * e.base);
+            let lever = (1.0 - s.keep) * length / (length + 0.8 * e.base);
             let aim = (way + push * lever).normalize_or_zero();
             let turn = Quat::from_rotation_arc(way.normalize_or(aim), aim);
             turned = (turn * turned).normalize();
