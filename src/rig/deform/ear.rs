@@ -104,7 +104,7 @@ impl Section {
     /// Position at a place, on the outer (1) or inner (-1) face; where the ring grows out of its base, `place` is even.
     fn at(&self, e: &EarProportions, base: &Base, place: usize, face: f32) -> Vec3 {
         let u = place as f32 / MIDDLE as f32 - 1.0;
-        let wall = 0.5 * e.thickness * (1.0 - 0.35 * self.part) * (1.0 - ops::powf(u.abs(), 2.5));
+        let wall = 0.5 * e.thickness * (1.0 - 0.35 * self.part) * (1.0 - ops::powf(u.abs(), 5.0));
         let bulge = self.cup[0] * (self.cup[1] - u * u);
         let mut p = self.centre + self.head(self.curve[place] + self.outwards[place] * (bulge + face * wall));
         if self.keep > 0.0 {
@@ -117,7 +117,7 @@ impl Section {
             let deep = if own.z < 0.0 { own.z / (1.0 - own.z * self.bend / 0.6) } else { own.z };
             let fixed = base.at[k] - base.middle;
             let turned = self.head(vec3(own.x, own.y, deep));
-            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.3, 1.0 - self.keep));
+            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.4, 1.0 - self.keep));
             p = p + (target - p) * (hold * self.keep);
         }
         p + self.push[place]
@@ -290,10 +290,8 @@ pub(super) fn leather(
 /// The burr: how far vertices of the inner face stand out of the concha (ring, column, parts of the base's width).
 /// Low in front the tragus, behind the notch the antitragus, and above the hollow that they close the anthelix, a ridge
 /// across the wall.
-const BURR: [(usize, usize, f32); 10] = [
-    (0, 2, 0.03),
-    (0, 3, 0.02),
-    (0, 4, 0.06),
+const BURR: [(usize, usize, f32); 8] = [
+    (0, 4, 0.02),
     (1, 2, 0.06),
     (1, 3, -0.05),
     (1, 4, 0.06),
@@ -450,7 +448,7 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
 /// Moves what is still in the head out of it, both faces of a place alike, so that the leather keeps its thickness.
 fn clear(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Section; SECTIONS]) {
     for s in sections.iter_mut() {
-        let least = 0.08 + 0.5 * clearance(s.part);
+        let least = 0.12 + 0.6 * clearance(s.part);
         for _ in 0..2 {
             let mut push = [Vec3::ZERO; MIDDLE + 1];
             for (column, push) in push.iter_mut().enumerate() {
