@@ -290,16 +290,8 @@ pub(super) fn leather(
 /// The burr: how far vertices of the inner face stand out of the concha (ring, column, parts of the base's width).
 /// Low in front the tragus, behind the notch the antitragus, and above the hollow that they close the anthelix, a ridge
 /// across the wall.
-const BURR: [(usize, usize, f32); 8] = [
-    (0, 4, 0.02),
-    (1, 2, 0.06),
-    (1, 3, -0.05),
-    (1, 4, 0.06),
-    (2, 3, -0.04),
-    (3, 2, 0.03),
-    (3, 3, 0.05),
-    (3, 4, 0.04),
-];
+const BURR: [(usize, usize, f32); 8] =
+    [(0, 4, 0.02), (1, 2, 0.06), (1, 3, -0.05), (1, 4, 0.06), (2, 3, -0.04), (3, 2, 0.03), (3, 3, 0.05), (3, 4, 0.04)];
 
 /// The cutaneous marginal pouch (Henry's pocket) on the rear margin: how deep it is at each ring, parts of half the width.
 const POUCH: [(usize, f32); 3] = [(2, 0.12), (3, 0.12), (4, 0.06)];
