@@ -1,8 +1,8 @@
 // Hair as ribbons that face the camera, grown in the vertex stage out of the skin that is drawn.
 //
-// A strand is bound to a triangle; place, direction, length and colour come from the values of its corners, so hair follows
-// every head without an upload. Its tip fades by covering fewer samples of a pixel, which needs no order. What varies from
-// hair to hair comes from its seed, what varies from lock to lock from noise in the head's frame.
+// A strand is bound to a triangle; place, direction and length come from the values of its corners, so hair follows every
+// head without an upload; its colour is its own. Its tip fades by covering fewer samples of a pixel, which needs no order. What varies from
+// hair to hair comes from its seed, what varies from lock to lock from noise in the base head's.
 
 struct Style {
     // Of the breed: curl, clump, lift, wire.
@@ -16,6 +16,10 @@ struct Root {
     second: f32,
     third: f32,
     seed: u32,
+    // On the base head, head units: what is bound to it stays where it is whatever the shape does.
+    x: f32,
+    y: f32,
+    z: f32,
 }
 
 @group(1) @binding(0) var<uniform> style: Style;
@@ -25,6 +29,7 @@ struct Root {
 @group(1) @binding(3) var<storage, read> positions: array<f32>;
 @group(1) @binding(4) var<storage, read> normals: array<f32>;
 @group(1) @binding(5) var<storage, read> flow: array<f32>;
+// Three numbers a strand.
 @group(1) @binding(6) var<storage, read> colours: array<f32>;
 // Length (m), standing off, hidden.
 @group(1) @binding(7) var<storage, read> growth: array<f32>;
@@ -38,6 +43,8 @@ struct Root {
 const POINTS: u32 = 6u;
 const BATCH: u32 = 128u;
 
+// Metres of a head unit on the default head.
+const HEAD_UNIT: f32 = 0.01;
 // Hair shorter than this is none, metres.
 const SHORTEST: f32 = 0.0004;
 
@@ -117,10 +124,10 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     // Deep in the coat it is dark.
     let open = (1.0 - 0.9 * hidden) * mix(0.65, 1.1, t);
     let fibre = mix(0.85, 1.2, sine(dot(heading, key)));
-    var light = KEY * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
-    light += FILL * wrapped(n, globals.fill.xyz, 0.5) * open;
-    light += RIM * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
-    light += sky(n) * open;
+    var light = globals.key_light.rgb * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
+    light += globals.fill_light.rgb * wrapped(n, globals.fill.xyz, 0.5) * open;
+    light += globals.rim_light.rgb * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
+    light += gathered(n) * open;
     light *= albedo;
 
     // Two highlights along the hair, after Kajiya and Kay (1989) and the shifts of Scheuermann (2004): one of the light
@@ -133,12 +140,12 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     let pale = mix(0.45, 1.0, smoothstep(0.01, 0.25, brightness));
     let gleam = vec3<f32>(0.035 * pale) * pow(first, 40.0) + (albedo * 0.20 + 0.006 * pale) * pow(second, 9.0);
     let reached = lit * clamp(dot(s.normal, key) * 1.5 + 0.2, 0.0, 1.0) * mix(0.3, 1.0, t);
-    light += KEY * gleam * gloss * reached;
+    light += globals.key_light.rgb * gleam * gloss * reached;
 
     // Tips before the light shine through.
     let edge = pow(1.0 - clamp(dot(s.normal, view), 0.0, 1.0), 3.0);
-    let behind = RIM * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
-    light += mix(albedo, vec3<f32>(1.0), 0.08) * (behind * 0.5 + KEY * 0.08 * lit) * edge * t * (1.0 - hidden);
+    let behind = globals.rim_light.rgb * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
+    light += mix(albedo, vec3<f32>(1.0), 0.08) * (behind * 0.5 + globals.key_light.rgb * 0.08 * lit) * edge * t * (1.0 - hidden);
     return light;
 }
 
@@ -203,17 +210,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
         vec3<f32>(comb[c], comb[c + 1u], comb[c + 2u]),
         root,
     );
-    let base = max(mixed(
-        vec3<f32>(colours[a], colours[a + 1u], colours[a + 2u]),
-        vec3<f32>(colours[b], colours[b + 1u], colours[b + 2u]),
-        vec3<f32>(colours[c], colours[c + 1u], colours[c + 2u]),
-        root,
-    ), vec3<f32>(0.0));
+    let base = vec3<f32>(colours[number * 3u], colours[number * 3u + 1u], colours[number * 3u + 2u]);
 
-    // Locks of half a centimetre, waves of three, mottles between.
-    let lock = noise(skin, 0.005);
-    let wave = noise(skin, 0.030);
-    let mottle = noise(skin + 0.37, 0.014);
+    // Locks of half a centimetre on the default head, waves of three, mottles between.
+    let place = vec3<f32>(root.x, root.y, root.z) * HEAD_UNIT;
+    let lock = noise(place, 0.005);
+    let wave = noise(place, 0.030);
+    let mottle = noise(place + 0.37, 0.014);
     let signed = random * 2.0 - 1.0;
     let clump = 0.6 + 1.2 * style.nature.y;
     let wire = style.nature.w;
@@ -239,7 +242,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     albedo *= mix(mix(0.85, 0.62, smoothstep(0.002, 0.015, s.length)), 1.18, t);
     let reach = skin + s.normal * (0.004 * globals.measures.x + 0.5 * s.length * s.lift);
     let lit = shadow(reach, other);
-    let light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);
+    if is_made_of(CLAY) {
+        albedo = CLAY_COLOUR;
+    }
+    var light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);
+    if is_made_of(INK) {
+        light = vec3<f32>(0.0);
+    }
 
     // A ribbon across the line of sight, at least a pixel wide and then the more transparent.
     let half_size = globals.viewport.xy * 0.5;

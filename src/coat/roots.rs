@@ -36,6 +36,16 @@ pub struct Root {
     pub weights: [f32; 2],
     /// What makes this hair differ from its neighbours.
     pub seed: u32,
+    /// Where it stands on the base head, head units: what the noise of locks is bound to.
+    pub place: [f32; 3],
+}
+
+impl Root {
+    /// The value at the root from those at the corners of its triangle.
+    pub fn mixed(&self, [a, b, c]: [Vec3; 3]) -> Vec3 {
+        let [second, third] = self.weights;
+        a * (1.0 - second - third) + b * second + c * third
+    }
 }
 
 /// How densely a region is haired, relative to the cheek. Short hair needs more of it to cover.
@@ -59,12 +69,8 @@ fn density(region: Region) -> f32 {
 ///
 /// Shares are by the area of the base head, so that they depend on the topology alone.
 pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool], n: usize) -> Vec<Root> {
-    let half = rig.half();
-    let base: Vec<Vec3> = half.base.iter().map(|&p| Vec3::from(p)).collect();
-    let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
-    half.unfold(&base, &mut control);
-    let (skin, _) = evaluate_once(plan, &control);
-    let regions = half.whole_regions();
+    let (skin, _) = evaluate_once(plan, &rig.base());
+    let regions = rig.half().whole_regions();
     // Up to the rim of what is bare, whose own triangles have another material.
     let borders = borders(rig, &regions);
     let of_vertex = regions.iter().zip(borders).map(|(&r, border)| if border { BORDER } else { density(r) });
@@ -93,7 +99,9 @@ pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool],
         let triangle = ends.partition_point(|&end| end <= wanted).min(ends.len() - 1) as u32;
         // Evenly over the triangle: Osada, Funkhouser, Chazelle and Dobkin 2002, "Shape distributions", equation 1.
         let (s, t) = (ops::sqrt(rng.unit_f32()), rng.unit_f32());
-        Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32() }
+        let mut root = Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32(), place: [0.0; 3] };
+        root.place = root.mixed(triangles[triangle as usize].map(|v| skin[v as usize])).to_array();
+        root
     };
     (0..n.min(MAX_STRANDS)).map(make).collect()
 }

@@ -1,4 +1,5 @@
-//! A contact sheet: one row a head with its name, one column a view; or several heads beside each other.
+//! A contact sheet: one row a head with its name, one column a view, or a view of each dress; or several heads beside each
+//! other.
 //!
 //! Call [`Sheet::measure`] for every head, then [`Sheet::add_row`] for every head, then [`Sheet::finish`]. The first
 //! round finds the scale that all cells share, so that a Chihuahua is small beside a borzoi.
@@ -8,6 +9,8 @@ use super::ground_pass::Background;
 use super::offscreen::{DrawError, Offscreen};
 use super::painter::{Drawing, Shading};
 use super::picture::Picture;
+use super::preset::Preset;
+use super::samples::Samples;
 use super::text;
 use crate::frame::Frame;
 
@@ -15,6 +18,39 @@ use crate::frame::Frame;
 const MARGIN: f32 = 0.06;
 const INK: [u8; 3] = [0x22, 0x22, 0x22];
 const PAPER: [u8; 3] = [0xe9, 0xe7, 0xe2];
+
+/// What a head of a sheet wears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dress {
+    /// Nothing: one matt clay.
+    Clay,
+    /// Its colours, without hair.
+    Skin,
+    /// Its coat.
+    Coat,
+}
+
+impl Dress {
+    /// Every dress, in the order of the help text.
+    pub const ALL: [Self; 3] = [Self::Clay, Self::Skin, Self::Coat];
+
+    /// The name it is asked for by.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Clay => "clay",
+            Self::Skin => "skin",
+            Self::Coat => "coat",
+        }
+    }
+
+    fn put_on(self, drawing: Drawing) -> Drawing {
+        match self {
+            Self::Clay => Drawing { preset: Preset::Clay, n_strands: 0, ..drawing },
+            Self::Skin => Drawing { n_strands: 0, ..drawing },
+            Self::Coat => drawing,
+        }
+    }
+}
 
 /// A sheet being composed.
 #[derive(Clone, Debug)]
@@ -31,6 +67,12 @@ pub struct Sheet {
     pub shading: Shading,
     /// Strands of hair on a head at most: none unless it is set.
     pub n_strands: u32,
+    /// In which light, and as what: in the studio unless it is set.
+    pub preset: Preset,
+    /// Of each pixel: sixteen unless they are set.
+    pub samples: Samples,
+    /// What each view is drawn in, one after another: the drawing as it is, without a word above it, if there are none.
+    pub dresses: Vec<Dress>,
     /// Heads beside each other, at least 1: 1 unless it is set.
     pub heads_across: u32,
     distance: f32,
@@ -58,6 +100,9 @@ impl Sheet {
             skin_opacity: 1.0,
             shading: Shading::Shaded,
             n_strands: 0,
+            preset: Preset::default(),
+            samples: Samples::default(),
+            dresses: Vec::new(),
             heads_across: 1,
             distance: 0.0,
             rows: Vec::new(),
@@ -86,18 +131,45 @@ impl Sheet {
 
     /// Draws one head in every view.
     pub fn add_row(&mut self, offscreen: &mut Offscreen, frame: &Frame<'_>, name: &str) -> Result<(), DrawError> {
-        let mut cells = Vec::with_capacity(self.views.len());
+        let mut cells = Vec::with_capacity(self.n_columns());
         for &view in &self.views {
             let mut camera = self.fitted(view, frame);
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let Self { background, skin_opacity, shading, n_strands, .. } = *self;
-            let drawing = Drawing { background, skin_opacity, shading, n_strands, ..Drawing::new(camera) };
-            cells.push(offscreen.draw(frame, &drawing, self.cell)?);
+            let Self { background, skin_opacity, shading, n_strands, preset, samples, .. } = *self;
+            let drawing =
+                Drawing { background, skin_opacity, shading, n_strands, preset, samples, ..Drawing::new(camera) };
+            if self.dresses.is_empty() {
+                cells.push(offscreen.draw(frame, &drawing, self.cell)?);
+            }
+            for dress in &self.dresses {
+                cells.push(offscreen.draw(frame, &dress.put_on(drawing), self.cell)?);
+            }
         }
         self.rows.push((name.to_owned(), cells));
         Ok(())
+    }
+
+    /// Pictures of one head.
+    fn n_columns(&self) -> usize {
+        self.views.len() * self.dresses.len().max(1)
+    }
+
+    /// What stands above the pictures of one head: the view's name where there are several or no dresses, and the dress's.
+    fn headings(&self) -> Vec<String> {
+        let names = self.views.iter().map(|view| view.name());
+        if self.dresses.is_empty() {
+            return names.collect();
+        }
+        let one = self.views.len() == 1;
+        let dressed = |view: String| {
+            self.dresses.iter().map(move |dress| match dress.name() {
+                dress if one => dress.to_owned(),
+                dress => format!("{view}, {dress}"),
+            })
+        };
+        names.flat_map(dressed).collect()
     }
 
     /// The sheet: names of the views above, each row with its name below.
@@ -108,26 +180,31 @@ impl Sheet {
         let row = cell_height + caption;
         let [r, g, b] = PAPER;
         let alpha = if self.background == Background::None { 0 } else { 255 };
-        let (across, block) = (self.heads_across.max(1), cell_width * self.views.len() as u32);
+        let (across, block) = (self.heads_across.max(1), cell_width * self.n_columns() as u32);
         let n_rows = (self.rows.len() as u32).div_ceil(across);
         let mut sheet = Picture::filled(block * across, heading + row * n_rows, [r, g, b, alpha]);
-        let views = (0..across).flat_map(|_| &self.views);
-        for (column, view) in (0u32..).zip(views) {
-            let size = heading as f32 * 0.7;
-            let name = view.name();
-            let x = (column * cell_width) as f32 + (cell_width as f32 - text::width(&name, size)) * 0.5;
-            text::draw(&mut sheet, &name, x, heading as f32 * 0.12, size, INK);
+        let headings = self.headings();
+        for (column, name) in (0u32..).zip((0..across).flat_map(|_| &headings)) {
+            let size = narrowed(name, heading as f32 * 0.7, cell_width);
+            let x = (column * cell_width) as f32 + (cell_width as f32 - text::width(name, size)) * 0.5;
+            text::draw(&mut sheet, name, x, heading as f32 * 0.12, size, INK);
         }
         for (index, (name, cells)) in (0u32..).zip(&self.rows) {
             let (left, top) = (index % across * block, heading + index / across * row);
             for (column, cell) in (0u32..).zip(cells) {
                 sheet.paste(cell, left + column * cell_width, top);
             }
-            let size = caption as f32 * 0.8;
+            let size = narrowed(name, caption as f32 * 0.8, block);
             text::draw(&mut sheet, name, left as f32 + size * 0.4, (top + cell_height) as f32 + size * 0.1, size, INK);
         }
         sheet
     }
+}
+
+/// The largest size up to `size` at which a word stays within `width` pixels, with a little room beside it.
+fn narrowed(word: &str, size: f32, width: u32) -> f32 {
+    let wide = text::width(word, size) + size * 0.8;
+    size * (width as f32 / wide.max(1.0)).min(1.0)
 }
 
 /// Height of a row's name, as a part of a cell's height.

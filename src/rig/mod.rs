@@ -23,7 +23,7 @@ pub mod whiskers;
 
 pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
-pub use handles::Handles;
+pub use handles::{EAR_RINGS, Handles};
 pub use landmarks::{Place, SkinLandmark};
 pub use pose::Pose;
 pub use proportions::{EarProportions, Measures, Proportions};
@@ -148,6 +148,20 @@ impl Rig {
     /// Names, regions, loops and landmarks of the half.
     pub fn half(&self) -> &HalfMesh {
         &self.half
+    }
+
+    /// Control positions of the base head, in its proportions' frame and head units, which are centimetres on the cranium
+    /// that they are relative to.
+    pub fn base(&self) -> Vec<Vec3> {
+        let half: Vec<Vec3> = self.half.base.iter().map(|&p| Vec3::from(p)).collect();
+        let mut whole = vec![Vec3::ZERO; self.mesh.n_vertices()];
+        self.half.unfold(&half, &mut whole);
+        whole
+    }
+
+    /// The vertex of the whole mesh that is the mirror image of one of the half.
+    pub fn image(&self, v: usize) -> usize {
+        self.images[v] as usize
     }
 
     /// The constant part of the deformation.

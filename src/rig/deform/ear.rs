@@ -17,6 +17,10 @@ const ROOT: [f32; 4] = [0.10, 0.24, 0.42, 0.64];
 /// Where the last ring stands, as a part of the length.
 const END: f32 = 0.955;
 
+/// Where the base's front vertex stands: radians from the head's front, towards the crown.
+const START: f32 = -0.55;
+/// How deep the base is for its width.
+const OVAL: f32 = 0.62;
 /// How often a ring is laid anew.
 const LAYING: usize = 5;
 /// Least distance of the leather from the median plane, head units.
@@ -41,7 +45,8 @@ fn axes(e: &EarProportions) -> [Vec3; 3] {
     [out, across, out.cross(across)]
 }
 
-/// The loop on the skull from which the leather rises.
+/// The loop on the skull from which the leather rises. Its outline turns with the leather, its vertices do not: they keep
+/// their places among those of temple, crown and nape, and the leather's first step takes the turn.
 pub(super) fn place_base(pins: &mut Pins) {
     let e = &pins.shape.ear;
     let [_, across, outer] = axes(e);
@@ -50,9 +55,11 @@ pub(super) fn place_base(pins: &mut Pins) {
     let along = (across - normal * normal.dot(across)).normalize_or(Vec3::NEG_Z);
     let side = normal.cross(along);
     let inner = if side.dot(outer) > 0.0 { -side } else { side };
+    let rearwards = (Vec3::NEG_Z + normal * normal.z).normalize_or(along);
+    let turn = ops::atan2(rearwards.dot(inner), rearwards.dot(along));
     for k in 0..12 {
-        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0);
-        let p = centre + (along * -cos + inner * (0.62 * sin)) * (0.5 * e.base);
+        let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0 + START - turn);
+        let p = centre + (along * -cos + inner * (OVAL * sin)) * (0.5 * e.base);
         let p = pins.surface.project(p, Layer::Whole, 5);
         pins.set(pins.handles.ear_base[k], p);
     }
@@ -127,7 +134,7 @@ impl Section {
 /// What the leather grows out of.
 struct Base {
     at: [Vec3; 12],
-    /// The same about the middle, as the leather's rings have it: across, along, outwards.
+    /// The loop about the middle from the leather's front margin on, as its rings have it: across, along, outwards.
     oval: [Vec3; 12],
     middle: Vec3,
     /// How much less the middle of the inner face holds the base's shape.
@@ -143,7 +150,14 @@ impl Base {
         let normal = (if normal.dot(out) < 0.0 { -normal } else { normal }).normalize_or(out);
         let along = (across - normal * normal.dot(across)).normalize_or(across);
         let outer = normal.cross(along);
-        let oval = at.map(|p| vec3((p - middle).dot(along), (p - middle).dot(normal), (p - middle).dot(outer)));
+        let own = at.map(|p| vec3((p - middle).dot(along), (p - middle).dot(normal), (p - middle).dot(outer)));
+        // By as much as the base stands turned to the leather, its shape is turned back, so that the leather is not wrung.
+        let start = ops::atan2(-own[0].z / OVAL, -own[0].x) * (6.0 / core::f32::consts::PI);
+        let oval = core::array::from_fn(|k| {
+            let place = k as f32 - start + 12.0;
+            let before = place.floor();
+            own[before as usize % 12].lerp(own[(before as usize + 1) % 12], place - before)
+        });
         Self { at, oval, middle, hollow: 0.4 + 0.12 * covers(e) }
     }
 }
