@@ -599,19 +599,16 @@ fn a_breed_is_no_valid_head() {
 }
 
 /// Blends of the sample that are known to be faulty, as they are: the hollow between bridge, stop and eye where one breed
-/// is narrow, low ears on small heads, and broad ears half way from rose to prick. The large sweep meets more of both kinds.
+/// is narrow, and the temple before a low ear. The large sweep meets more of both kinds.
 const KNOWN_BLENDS: &[[&str; 2]] = &[
-    ["corgi", "chow_chow"],
     ["german_shepherd", "bulldog"],
     ["german_shepherd", "dachshund"],
     ["borzoi", "beagle"],
+    ["irish_setter", "bloodhound"],
     ["chihuahua", "beagle"],
     ["chihuahua", "borzoi"],
-    ["chihuahua", "cavalier"],
     ["dachshund", "borzoi"],
     ["pug", "borzoi"],
-    ["staffordshire", "bull_terrier"],
-    ["staffordshire", "siberian_husky"],
 ];
 
 /// Blends in a hundred that the large sweep may find faulty.
@@ -646,7 +643,7 @@ fn a_blend_of_two_breeds_is_no_valid_head() {
         }
     }
     println!("{faulty} of {heads} blends are faulty");
-    let most = if sweeps_all() { heads * MOST_FAULTY / 100 } else { 9 };
+    let most = if sweeps_all() { heads * MOST_FAULTY / 100 } else { 2 };
     faults.check(faulty <= most, || format!("{faulty} of {heads} blends are faulty, {most} were known"));
     assert!(faults.0.is_empty(), "{} faults:\n{}", faults.0.len(), faults.0.join("\n"));
 }

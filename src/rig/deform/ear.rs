@@ -111,7 +111,7 @@ impl Section {
     /// Position at a place, on the outer (1) or inner (-1) face; where the ring grows out of its base, `place` is even.
     fn at(&self, e: &EarProportions, base: &Base, place: usize, face: f32) -> Vec3 {
         let u = place as f32 / MIDDLE as f32 - 1.0;
-        let wall = 0.5 * e.thickness * (1.0 - 0.35 * self.part) * (1.0 - ops::powf(u.abs(), 2.5));
+        let wall = 0.5 * e.thickness * (1.0 - 0.35 * self.part) * (1.0 - ops::powf(u.abs(), 5.0));
         let bulge = self.cup[0] * (self.cup[1] - u * u);
         let mut p = self.centre + self.head(self.curve[place] + self.outwards[place] * (bulge + face * wall));
         if self.keep > 0.0 {
@@ -124,7 +124,7 @@ impl Section {
             let deep = if own.z < 0.0 { own.z / (1.0 - own.z * self.bend / 0.6) } else { own.z };
             let fixed = base.at[k] - base.middle;
             let turned = self.head(vec3(own.x, own.y, deep));
-            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.6, 1.0 - self.keep));
+            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.4, 1.0 - self.keep));
             p = p + (target - p) * (hold * self.keep);
         }
         p + self.push[place]
@@ -189,7 +189,7 @@ fn parts(e: &EarProportions) -> [f32; SECTIONS] {
 
 /// Half the way over which the sheet bends. Leather folds no sharper than its thickness allows.
 fn softness(e: &EarProportions) -> f32 {
-    let least = 0.8 * fold(e) * e.thickness;
+    let least = 1.1 * fold(e) * e.thickness;
     let wanted = e.fold_softness * e.length;
     (wanted * wanted + least * least).sqrt()
 }
@@ -230,9 +230,12 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; SECTIONS] {
     let grown = (0.6 * e.base / e.length.max(0.1)).clamp(0.18, 0.36);
     let mut sections = [Section::default(); SECTIONS];
     let (mut p, mut ring) = (root, 0);
-    // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears.
+    // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears. Wide leather
+    // turns over a longer way, so that the margin on the inner side of the turn does not run into itself.
+    let wide = 2.2 * e.sweep * 0.5 * e.width / e.length.max(0.1);
+    let ramp = (0.55 * 0.55 + wide * wide).sqrt();
     let turn = |s: f32, v: Vec3| {
-        let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, 0.55, s));
+        let (ss, cs) = sin_cos(-e.sweep * smoothstep(0.0, ramp, s));
         vec3(v.x, v.y * cs - v.z * ss, v.y * ss + v.z * cs)
     };
     for n in 0..STEPS {
@@ -301,18 +304,8 @@ pub(super) fn leather(
 /// The burr: how far vertices of the inner face stand out of the concha (ring, column, parts of the base's width).
 /// Low in front the tragus, behind the notch the antitragus, and above the hollow that they close the anthelix, a ridge
 /// across the wall.
-const BURR: [(usize, usize, f32); 10] = [
-    (0, 2, 0.03),
-    (0, 3, 0.02),
-    (0, 4, 0.06),
-    (1, 2, 0.09),
-    (1, 3, -0.10),
-    (1, 4, 0.08),
-    (2, 3, -0.05),
-    (3, 2, 0.05),
-    (3, 3, 0.10),
-    (3, 4, 0.05),
-];
+const BURR: [(usize, usize, f32); 8] =
+    [(0, 4, 0.02), (1, 2, 0.06), (1, 3, -0.05), (1, 4, 0.06), (2, 3, -0.04), (3, 2, 0.03), (3, 3, 0.05), (3, 4, 0.04)];
 
 /// The cutaneous marginal pouch (Henry's pocket) on the rear margin: how deep it is at each ring, parts of half the width.
 const POUCH: [(usize, f32); 3] = [(2, 0.12), (3, 0.12), (4, 0.06)];
@@ -366,10 +359,11 @@ fn held(e: &EarProportions) -> f32 {
 }
 
 /// How much the leather lies on the head at a part of its length: where it hangs, beyond its fold; not a tip that only
-/// falls over high in the air, and not a rose ear, which its own folds hold.
+/// falls over high in the air. A rose ear, which its own folds hold, lies less.
 fn lies(e: &EarProportions, part: f32) -> f32 {
     let in_the_air = smoothstep(0.26, 0.42, e.fold_height);
-    covers(e) * (1.0 - in_the_air) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.22, part)
+    let hanging = covers(e) * (1.0 - in_the_air) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.22, part);
+    hanging + 0.6 * hang(e) * held(e) * smoothstep(e.fold_height - 0.11, e.fold_height + 0.4, part)
 }
 
 /// What the leather may not enter.
@@ -380,21 +374,21 @@ struct Obstacles<'a> {
     radius: f32,
 }
 
+/// The nearer of two obstacles, each a distance and an outward normal, rounded where they are equally near.
+fn nearer(a: (f32, Vec3), b: (f32, Vec3)) -> (f32, Vec3) {
+    const ROUND: f32 = 0.5;
+    let h = (0.5 + 0.5 * (b.0 - a.0) / ROUND).clamp(0.0, 1.0);
+    (b.0 + (a.0 - b.0) * h - ROUND * h * (1.0 - h), b.1.lerp(a.1, h))
+}
+
 impl Obstacles<'_> {
     /// Distance and outward normal at two points: of the head, of its lids, and of the median plane.
     fn sample2(&self, a: Vec3, b: Vec3) -> [(f32, Vec3); 2] {
         let [sa, sb] = self.surface.sample2(a, b, Layer::Whole);
         [(a, sa), (b, sb)].map(|(p, (f, g))| {
-            let plane = p.x - APART;
             let from_eye = p - self.eye;
-            let lids = from_eye.length() - self.radius;
-            if plane < f.min(lids) {
-                (plane, Vec3::X)
-            } else if lids < f {
-                (lids, from_eye.normalize_or_zero())
-            } else {
-                (f, g.normalize_or_zero())
-            }
+            let lids = (from_eye.length() - self.radius, from_eye.normalize_or_zero());
+            nearer((p.x - APART, Vec3::X), nearer((f, g.normalize_or_zero()), lids))
         })
     }
 }
@@ -423,22 +417,29 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
                 let b = s.at(e, base, places[1], faces[1]);
                 [near[2 * k], near[2 * k + 1]] = head.sample2(a, b);
             }
-            let (nearest, normal) =
-                near.iter().fold((f32::INFINITY, Vec3::ZERO), |n, &g| if g.0 < n.0 { g } else { n });
+            // What is deepest in the head counts most, and what is nearest to it, without a jump from one to another.
+            let (mut deep, mut out, mut normal, mut nearest) = (0.0, Vec3::ZERO, Vec3::ZERO, f32::INFINITY);
+            for (f, n) in near {
+                let depth = (clearance(s.part) - f).max(0.0);
+                (deep, out) = (deep + depth, out + n * (depth * depth));
+                let apart = f.max(0.0) + 0.3;
+                (normal, nearest) = (normal + n / (apart * apart * apart), nearest.min(f));
+            }
+            let (out, normal) = (out / deep.max(1e-4), normal.normalize_or_zero());
             let gap = nearest - clearance(s.part);
             // Weight: a hanging leather turns down where it is in the air, and glides to the head where that is beside it.
             let beside = vec3(normal.x, 0.0, normal.z) * smoothstep(-0.5, -0.1, normal.y);
             let glide = (gap / 3.0).clamp(0.0, 0.5) * length + way.dot(beside);
             let air = smoothstep(0.3, 2.0, gap);
             let weight = beside * (-0.5 * glide) + Vec3::NEG_Y * (0.3 * air * (length + way.y));
-            let push = normal * (-gap).max(0.0) + weight * sink;
+            let push = out + (weight * sink).clamp_length_max(0.1 * length);
             let push = push.clamp_length_max(0.7 * length);
             if step + 1 == LAYING {
                 s.centre += push;
                 break;
             }
             // Rings of the root, which are near to each other, rather move than turn.
-            let lever = (1.0 - s.keep) * length / (length + 0.15 * e.base);
+            let lever = (1.0 - s.keep) * length / (length + 0.8 * e.base);
             let aim = (way + push * lever).normalize_or_zero();
             let turn = Quat::from_rotation_arc(way.normalize_or(aim), aim);
             turned = (turn * turned).normalize();
@@ -453,14 +454,14 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
 /// Moves what is still in the head out of it, both faces of a place alike, so that the leather keeps its thickness.
 fn clear(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Section; SECTIONS]) {
     for s in sections.iter_mut() {
-        let least = 0.08 + 0.5 * clearance(s.part);
+        let least = 0.12 + 0.6 * clearance(s.part);
         for _ in 0..2 {
             let mut push = [Vec3::ZERO; MIDDLE + 1];
             for (column, push) in push.iter_mut().enumerate() {
                 let [inner, outer] = [-1.0, 1.0].map(|face| s.at(e, base, 2 * column, face));
                 let [a, b] = head.sample2(inner, outer);
-                let (f, normal) = if a.0 < b.0 { a } else { b };
-                *push = normal * (least - f).max(0.0);
+                let [da, db] = [a, b].map(|(f, _)| (least - f).max(0.0));
+                *push = (a.1 * (da * da) + b.1 * (db * db)) / (da + db).max(1e-4);
             }
             for place in 0..PLACES {
                 let (a, b) = (push[place / 2], push[place.div_ceil(2)]);
