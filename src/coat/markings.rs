@@ -224,13 +224,15 @@ impl<'a> Spot<'a> {
         inside
     }
 
+    /// Stripes across the hair, each of its own strength, that branch and end.
     fn stripes(&self, spacing: f32, width: f32, breaks: f32, seed: u32) -> f32 {
         let p = self.free;
-        let warp = noise::smooth(p / 2.6, seed).x * 0.9 + noise::smooth(p / 1.1, seed ^ 0x99).x * 0.25;
+        let warp =
+            noise::smooth(p / (3.2 * spacing), seed).x * 1.3 + noise::smooth(p / (1.1 * spacing), seed ^ 0x99).x * 0.45;
         let phase = (0.85 * p.z + 0.45 * p.x.abs() + 0.25 * p.y) / spacing + warp;
         let wave = ops::cos(std::f32::consts::TAU * (phase - phase.floor()));
-        let gap = noise::smooth(p / (1.1 * spacing), seed ^ 0x33).x;
-        (wave - ops::cos(std::f32::consts::PI * width) - breaks * 1.6 * (gap + 0.1).max(0.0)) * 0.20 * spacing
+        let gap = noise::smooth(p / (1.6 * spacing), seed ^ 0x33).x;
+        (wave - ops::cos(std::f32::consts::PI * width) - breaks * 2.0 * (gap + 0.15)) * 0.20 * spacing
     }
 
     /// How much of a marking is here, 0 to 1.
