@@ -167,13 +167,13 @@ kinds! {
         ("size_mm", 1.0, 60.0, 12.0, "across"),
         ("density", 0.0, 1.0, 0.6, "how close together"),
         ("seed", 0.0, 9999.0, 1.0, "another number is another dog"),
-        ("soft_mm", 0.5, 60.0, 1.5, "width of the border"),
+        ("soft_mm", 0.5, 8.0, 1.5, "width of the border"),
     ];
     Ticking: "Flecks the size of a lentil.", [
         ("size_mm", 1.0, 60.0, 3.5, "across"),
         ("density", 0.0, 1.0, 0.5, "how close together"),
         ("seed", 0.0, 9999.0, 1.0, "another number is another dog"),
-        ("soft_mm", 0.5, 60.0, 1.0, "width of the border"),
+        ("soft_mm", 0.5, 8.0, 1.0, "width of the border"),
     ];
     Brindle: "Stripes across the hair.", [
         ("spacing_mm", 3.0, 60.0, 6.5, "from stripe to stripe"),

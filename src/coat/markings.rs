@@ -204,21 +204,26 @@ impl<'a> Spot<'a> {
         0.8 * coarse.x + 0.35 * middle.y + torn * (0.30 * middle.x + 0.35 * fine.x)
     }
 
-    /// Distance into the nearest of round spots, `size` across.
+    /// Distance into the nearest of round spots, `size` across; far outside where none is near.
     fn spots(&self, size: f32, density: f32, seed: u32) -> f32 {
         let p = self.site.place + (self.free - self.site.place) * 0.25;
         let mesh = size * (2.6 - 1.5 * density);
         let place = p / mesh;
-        let base = place.floor().as_ivec3();
+        // No spot is wider than half a cell beyond its own.
+        let reach = Vec3::splat(0.56);
+        let [from, to] = [place - reach, place + reach].map(|corner| corner.floor().as_ivec3());
         let mut inside = OUTSIDE;
-        for i in 0..27 {
-            let cell = base + glam::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-            let random = noise::cell(cell, seed);
-            let [has, radius] = [noise::cell(cell, seed ^ 0x1234).x, noise::cell(cell, seed ^ 0x4321).x];
-            if has < 0.35 + 0.6 * density {
-                let middle = cell.as_vec3() + random;
-                let radius = 0.5 * size * (0.55 + 0.6 * radius);
-                inside = inside.max(radius - (place - middle).length() * mesh);
+        for z in from.z..=to.z {
+            for y in from.y..=to.y {
+                for x in from.x..=to.x {
+                    let cell = glam::ivec3(x, y, z);
+                    let own = noise::cell(cell, seed ^ 0x1234);
+                    if own.x < 0.35 + 0.6 * density {
+                        let middle = cell.as_vec3() + noise::cell(cell, seed);
+                        let radius = 0.5 * size * (0.55 + 0.6 * own.y);
+                        inside = inside.max(radius - (place - middle).length() * mesh);
+                    }
+                }
             }
         }
         inside
