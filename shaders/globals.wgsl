@@ -1,5 +1,17 @@
 // What every shader reads, put behind each of the others: one block for a picture. See src/render/globals.rs.
 
+// An eyeball behind its lids.
+struct Eyeball {
+    // In the head's frame (m), and its radius, 0 where there is no such eye.
+    centre: vec4<f32>,
+    // Sideways, up, the gaze; and the angle of the limbus off the gaze, to the side and upwards.
+    axes: array<vec4<f32>, 3>,
+    // Linear.
+    iris: vec4<f32>,
+    // Two points of the opening each: directions from the centre, (x, y) / (1 + z).
+    lids: array<vec4<f32>, 6>,
+}
+
 struct Globals {
     clip_from_head: mat4x4<f32>,
     // Texture coordinates and depth in the key light's map.
@@ -19,7 +31,17 @@ struct Globals {
     measures: vec4<f32>,
     // Width and height in pixels, and one over each.
     viewport: vec4<f32>,
-    // How much of the haired skin is covered by strands, 0 to 1.
+    // How much of the haired skin is covered by strands, 0 to 1; what surfaces are made of; exposure.
     coat: vec4<f32>,
+    // Light of the lamps, linear.
+    key_light: vec4<f32>,
+    fill_light: vec4<f32>,
+    rim_light: vec4<f32>,
+    // The sky's light, and how much of it a matt surface sends back: see src/render/sky.rs.
+    zenith: vec4<f32>,
+    horizon: vec4<f32>,
+    ground: vec4<f32>,
+    gathered: array<vec4<f32>, 3>,
+    eyes: array<Eyeball, 2>,
 }
 @group(0) @binding(0) var<uniform> globals: Globals;

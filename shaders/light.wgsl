@@ -1,11 +1,13 @@
-// The studio's light and the film it falls on: what every lit surface shares, put behind its shader.
+// The light and the film it falls on: what every lit surface shares, put behind its shader.
 
-// Light, linear.
-const KEY: vec3<f32> = vec3<f32>(2.75, 2.58, 2.30);
-const FILL: vec3<f32> = vec3<f32>(0.27, 0.34, 0.44);
-const RIM: vec3<f32> = vec3<f32>(1.75, 1.80, 1.95);
-const SKY: vec3<f32> = vec3<f32>(0.37, 0.42, 0.50);
-const GROUND: vec3<f32> = vec3<f32>(0.17, 0.14, 0.11);
+// What surfaces are made of, instead of what they are: as in src/render/preset.rs.
+const CLAY: f32 = 1.0;
+const INK: f32 = 2.0;
+const CLAY_COLOUR: vec3<f32> = vec3<f32>(0.46, 0.41, 0.36);
+
+fn is_made_of(stuff: f32) -> bool {
+    return abs(globals.coat.y - stuff) < 0.5;
+}
 
 // A rotation without symmetry, so that the noise's lattice lies along no axis of the head.
 const SKEW: mat3x3<f32> = mat3x3<f32>(
@@ -22,8 +24,18 @@ fn unit(v: vec3<f32>, instead: vec3<f32>) -> vec3<f32> {
     return v * inverseSqrt(l);
 }
 
+// What of the sky is seen in a direction.
 fn sky(direction: vec3<f32>) -> vec3<f32> {
-    return mix(GROUND, SKY, smoothstep(-0.9, 0.9, dot(direction, globals.up.xyz)));
+    let height = dot(direction, globals.up.xyz);
+    let end = select(globals.ground.rgb, globals.zenith.rgb, height > 0.0);
+    return mix(globals.horizon.rgb, end, smoothstep(0.05, 0.85, abs(height)));
+}
+
+// What a matt surface sends back of the sky.
+fn gathered(normal: vec3<f32>) -> vec3<f32> {
+    let c = dot(normal, globals.up.xyz);
+    let light = globals.gathered[0].rgb + globals.gathered[1].rgb * c + globals.gathered[2].rgb * (1.5 * c * c - 0.5);
+    return max(light, vec3<f32>(0.0));
 }
 
 // Lambert's cosine, let past the terminator by `wrap`, with its energy kept.
@@ -34,7 +46,7 @@ fn wrapped(normal: vec3<f32>, light: vec3<f32>, wrap: f32) -> f32 {
 // A shoulder that starts late and never clips; the toe keeps dark coats dark. Colours are bent by their brightest
 // channel in part, so that pale coats keep their hue.
 fn film(light: vec3<f32>) -> vec3<f32> {
-    let x = max(light, vec3<f32>(0.0)) * 0.62;
+    let x = max(light, vec3<f32>(0.0)) * (0.62 * globals.coat.z);
     let each = x * (1.0 + x * 0.09) / (1.0 + x * 0.78);
     let peak = max(max(x.r, x.g), max(x.b, 1e-5));
     let bent = peak * (1.0 + peak * 0.09) / (1.0 + peak * 0.78);

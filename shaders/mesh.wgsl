@@ -1,4 +1,4 @@
-// The head's surfaces under a portrait studio: key, fill and rim light, a sky; haired skin, wet leather, eyes.
+// The head's surfaces under key, fill and rim light and a sky: haired skin, wet leather, eyes, bone.
 //
 // Everything is reckoned in the head's frame, where noise stays in place whatever the camera does.
 
@@ -20,8 +20,12 @@ const MOUTH: u32 = 3u;
 const EYE: u32 = 4u;
 const CAP: u32 = 5u;
 const BONE: u32 = 6u;
-// And all else that is smooth and moist.
 const TOOTH: u32 = 7u;
+// Gums and third eyelids.
+const GUM: u32 = 8u;
+const TONGUE: u32 = 9u;
+const TEARS: u32 = 10u;
+const WHISKER: u32 = 11u;
 
 struct Vertex {
     @location(0) position: vec3<f32>,
@@ -29,6 +33,8 @@ struct Vertex {
     @location(2) flow: vec3<f32>,
     @location(3) colour: vec3<f32>,
     @location(4) surface: vec3<f32>,
+    // Where the point lies on the base head: what is bound to it moves with the skin.
+    @location(5) rest: vec3<f32>,
 }
 
 struct Varying {
@@ -38,12 +44,13 @@ struct Varying {
     @location(2) flow: vec3<f32>,
     @location(3) colour: vec3<f32>,
     @location(4) surface: vec3<f32>,
+    @location(5) rest: vec3<f32>,
 }
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
     let clip = globals.clip_from_head * vec4<f32>(in.position, 1.0);
-    return Varying(clip, in.position, in.normal, in.flow, in.colour, in.surface);
+    return Varying(clip, in.position, in.normal, in.flow, in.colour, in.surface, in.rest);
 }
 
 // One point to be shaded, in the head's frame.
@@ -84,14 +91,14 @@ fn studio(direction: vec3<f32>, blur: f32) -> vec3<f32> {
     let key = smoothstep(0.90 - blur, 0.985, dot(direction, globals.key.xyz));
     let fill = smoothstep(0.80 - blur, 0.99, dot(direction, globals.fill.xyz));
     let rim = smoothstep(0.90 - blur, 0.99, dot(direction, globals.rim.xyz));
-    return sky(direction) + KEY * key * 1.6 + FILL * fill * 1.2 + RIM * rim * 0.6;
+    return sky(direction) + globals.key_light.rgb * key * 1.6 + globals.fill_light.rgb * fill * 1.2 + globals.rim_light.rgb * rim * 0.6;
 }
 
 fn diffuse(p: Point, wrap: f32) -> vec3<f32> {
-    let key = KEY * wrapped(p.normal, globals.key.xyz, wrap) * p.lit;
-    let fill = FILL * wrapped(p.normal, globals.fill.xyz, 0.5) * p.open;
-    let rim = RIM * wrapped(p.normal, globals.rim.xyz, 0.1) * 0.35 * p.open;
-    return key + fill + rim + sky(p.normal) * p.open;
+    let key = globals.key_light.rgb * wrapped(p.normal, globals.key.xyz, wrap) * p.lit;
+    let fill = globals.fill_light.rgb * wrapped(p.normal, globals.fill.xyz, 0.5) * p.open;
+    let rim = globals.rim_light.rgb * wrapped(p.normal, globals.rim.xyz, 0.1) * 0.35 * p.open;
+    return key + fill + rim + gathered(p.normal) * p.open;
 }
 
 fn fresnel(cosine: f32) -> f32 {
@@ -206,63 +213,217 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
     let sin_second = sqrt(max(1.0 - pow(dot(second, half_way), 2.0), 0.0));
     let reached = p.lit * clamp(dot(smooth_normal, globals.key.xyz) * 1.5 + 0.1, 0.0, 1.0);
     let gleam = vec3<f32>(0.016) * pow(sin_first, 40.0) + (albedo * 0.20 + 0.006) * pow(sin_second, 12.0);
-    light += KEY * gleam * reached * fur;
+    light += globals.key_light.rgb * gleam * reached * fur;
 
     // Tips that stand off the outline catch what comes from behind and above.
     let edge = pow(1.0 - facing, 3.0);
-    let behind = RIM * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
+    let behind = globals.rim_light.rgb * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
     let tips = mix(albedo, vec3<f32>(1.0), 0.12) * (1.0 + 0.35 * fine.x);
-    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + KEY * 0.12 * p.lit) * edge * (fur - cover) * p.open;
+    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + globals.key_light.rgb * 0.12 * p.lit) * edge * (fur - cover) * p.open;
     return light;
 }
 
-// The film of moisture on bare margins, over what is below it.
-fn moisture(p: Point, gloss: f32) -> vec3<f32> {
-    let mirror = reflect(-p.view, p.normal);
-    let film = KEY * p.lit * (lobe(p, globals.key.xyz, 0.5) * 1.5 + lobe(p, globals.key.xyz, 0.3));
-    return (film + studio(mirror, 0.5) * fresnel(dot(p.view, p.normal)) * 0.6) * gloss * p.open;
+// The normal over a height given by its slope along the base head's axes, after Mikkelsen 2010, "Bump mapping unparametrized
+// surfaces on the GPU": what is bound to the base head is carried to where the skin has gone.
+fn bumped(p: Point, rest: vec3<f32>, slope: vec3<f32>) -> vec3<f32> {
+    let right = dpdx(p.position);
+    let down = dpdy(p.position);
+    let across = cross(down, p.normal);
+    let along = cross(p.normal, right);
+    let area = dot(right, across);
+    if abs(area) < 1e-20 {
+        return p.normal;
+    }
+    let gradient = (dot(slope, dpdx(rest)) * across + dot(slope, dpdy(rest)) * along) / area;
+    return unit(p.normal - gradient, p.normal);
 }
 
-// Moist bare skin. `grain`: cobbles a head's size; `roughness` of the film on it.
-fn leather(at: Point, colour: vec3<f32>, gloss: f32, grain: f32, relief: f32, roughness: f32) -> vec3<f32> {
+// The film of moisture over what lies below it: a broad lobe of the skin and a sharp one of the water on it.
+fn moisture(p: Point, gloss: f32) -> vec3<f32> {
+    let mirror = reflect(-p.view, p.normal);
+    let key = globals.key_light.rgb * p.lit;
+    let film = key * (lobe(p, globals.key.xyz, 0.5) * 1.5 + lobe(p, globals.key.xyz, 0.22) * gloss);
+    let rim = globals.rim_light.rgb * lobe(p, globals.rim.xyz, 0.35) * 0.6;
+    return (film + rim + studio(mirror, 0.5) * fresnel(dot(p.view, p.normal)) * 0.6) * gloss * p.open;
+}
+
+// Moist bare skin. `rest`: in cells; `relief`: of a cobble; `roughness`: of the film on it.
+fn leather(at: Point, colour: vec3<f32>, gloss: f32, rest: vec3<f32>, relief: f32, roughness: f32) -> vec3<f32> {
     var p = at;
     let smooth_normal = p.normal;
-    let pixel = max(length(dpdx(p.position)), length(dpdy(p.position))) * grain / globals.measures.x;
-    let seen = 1.0 - smoothstep(0.25, 0.8, pixel);
-    let cobble = cobbles(p.position * grain / globals.measures.x);
-    let outward = cobble.xyz - p.normal * dot(cobble.xyz, p.normal);
-    p.normal = unit(p.normal + outward * relief * seen, p.normal);
-    let furrow = mix(1.0, 0.55 + 0.45 * cobble.w, seen * min(relief, 1.0));
-    let albedo = colour * furrow;
-    var light = albedo * diffuse(p, 0.25);
+    let cell = max(length(dpdx(rest)), length(dpdy(rest)));
+    let seen = 1.0 - smoothstep(0.25, 0.9, cell);
+    let cobble = cobbles(rest);
+    // A dome on each cell, in metres of the base head where the cells are its unit.
+    let metre = max(length(dpdx(p.position)), length(dpdy(p.position))) / max(cell, 1e-6);
+    p.normal = bumped(p, rest, -cobble.xyz * (relief * seen * metre));
+    let furrow = mix(1.0, 0.45 + 0.55 * cobble.w, seen * min(relief, 1.0));
+    var light = colour * furrow * diffuse(p, 0.25);
     let wet = gloss * p.open;
     let broad = lobe(p, globals.key.xyz, 0.55) * 2.0;
     let sharp = lobe(p, globals.key.xyz, roughness);
-    light += KEY * p.lit * wet * furrow * (broad + sharp);
-    light += RIM * wet * (lobe(p, globals.rim.xyz, 0.35) + 0.5 * lobe(p, globals.rim.xyz, 0.6));
-    light += FILL * wet * lobe(p, globals.fill.xyz, 0.4);
+    light += globals.key_light.rgb * p.lit * wet * furrow * (broad + sharp);
+    light += globals.rim_light.rgb * wet * (lobe(p, globals.rim.xyz, 0.35) + 0.5 * lobe(p, globals.rim.xyz, 0.6));
+    light += globals.fill_light.rgb * wet * lobe(p, globals.fill.xyz, 0.4);
     let mirror = reflect(-p.view, unit(mix(p.normal, smooth_normal, 0.4), p.normal));
     light += studio(mirror, 0.5) * wet * furrow * fresnel(dot(p.view, p.normal)) * 0.7;
     return light;
 }
 
-fn eye(p: Point, colour: vec3<f32>) -> vec3<f32> {
-    // The upper lid and its lashes keep the sky off the upper part of the ball.
-    let under_lid = 1.0 - 0.55 * smoothstep(0.05, 0.75, dot(p.normal, globals.up.xyz));
-    let soft = Point(p.position, p.normal, p.view, mix(0.35, 1.0, p.lit), p.open);
-    var light = colour * diffuse(soft, 0.4) * under_lid;
-    // Light that enters the cornea on one side glows in the iris on the other.
-    let across = max(dot(p.normal, unit(p.view * 0.6 - globals.key.xyz, p.view)), 0.0);
-    light += colour * KEY * 0.35 * across * across * p.lit;
+// ---- eyes ------------------------------------------------------------------------------------------------------
+
+// Four channels of smooth noise, 0 to 1, about one blob a unit.
+fn grain(place: vec3<f32>) -> vec4<f32> {
+    return textureSampleLevel(noise_block, noise_sampler, place / 64.0, 0.0);
+}
+
+// From the nearest point of the lids' opening to a place in its plane.
+fn from_lids(e: u32, place: vec2<f32>) -> vec2<f32> {
+    var nearest = vec2<f32>(9.0);
+    var start = globals.eyes[e].lids[5].zw;
+    for (var i = 0u; i < 12u; i++) {
+        let pair = globals.eyes[e].lids[i / 2u];
+        let end = select(pair.zw, pair.xy, i % 2u == 0u);
+        let edge = end - start;
+        let along = clamp(dot(place - start, edge) / max(dot(edge, edge), 1e-9), 0.0, 1.0);
+        let offset = place - start - edge * along;
+        if dot(offset, offset) < dot(nearest, nearest) {
+            nearest = offset;
+        }
+        start = end;
+    }
+    return nearest;
+}
+
+// The iris at a place of its disk, `r` from the middle (0) to the rim (1): fibres from the collarette outwards and inwards,
+// and the dark ring at the rim.
+fn iris_colour(colour: vec3<f32>, place: vec2<f32>, r: f32) -> vec3<f32> {
+    let turn = place / max(length(place), 1e-4);
+    let wander = grain(vec3<f32>(turn * 4.0 + 7.0, r * 2.5)).x - 0.5;
+    let bent = turn + vec2<f32>(-turn.y, turn.x) * wander * 0.09;
+    let coarse = grain(vec3<f32>(bent * 15.0 + 20.0, r * 2.2));
+    let fine = grain(vec3<f32>(bent * 36.0 + 31.0, r * 3.5));
+    let collarette = PUPIL + 0.27 * (1.0 - PUPIL) + 0.10 * (grain(vec3<f32>(turn * 6.0, 3.0)).y - 0.5);
+    let outer = smoothstep(collarette - 0.04, collarette + 0.03, r);
+    let fibres = (coarse.x - 0.5) * 1.1 + (fine.x - 0.5) * 0.8;
+    // Hollows between the fibres, where one sees down to the dark layer behind.
+    let hollow = smoothstep(0.56, 0.75, coarse.z) * outer * (1.0 - smoothstep(0.75, 0.92, r));
+    let ridge = exp(-pow((r - collarette) / 0.035, 2.0));
+    // What is left of the sphincter: paler, and redder.
+    var shade = mix(vec3<f32>(0.62, 0.54, 0.50), vec3<f32>(1.0), outer);
+    shade *= 1.0 + fibres * mix(0.55, 1.0, outer) + 0.40 * ridge - 0.45 * hollow;
+    shade *= 1.0 - 0.10 * smoothstep(0.35, 0.65, grain(vec3<f32>(turn * 2.0, r * 14.0)).w);
+    shade *= mix(1.0, 0.16, smoothstep(0.76, 1.0, r));
+    return colour * max(shade, vec3<f32>(0.05));
+}
+
+// Width of the pupil as a part of the iris'.
+const PUPIL: f32 = 0.37;
+// Refraction of air to the fluid behind the cornea.
+const FLUID: f32 = 0.749;
+
+// The cornea's mirror: the soft box that lights the head, a weak image of the fill light, and what there is of the sky.
+fn eye_mirror(p: Point, shade: f32) -> vec3<f32> {
     let mirror = reflect(-p.view, p.normal);
-    let cosine = dot(p.view, p.normal);
-    // The window that eyes mirror stands nearer to the camera than the key light, or the lid would cover it.
+    // The box that eyes mirror stands nearer to the camera than the key light, or the lid would cover it.
     let lamp = unit(globals.key.xyz + p.view * 0.75, p.view);
-    let window = smoothstep(0.952, 0.968, dot(mirror, lamp));
-    let second = smoothstep(0.86, 0.93, dot(mirror, globals.fill.xyz));
-    light += KEY * window * 0.95 + FILL * second * 0.22;
-    light += sky(mirror) * fresnel(cosine) * 1.1 * under_lid * p.open;
-    return light;
+    let right = unit(cross(globals.up.xyz, lamp), p.view);
+    let up = cross(lamp, right);
+    let across = vec2<f32>(dot(mirror, right), dot(mirror, up));
+    let corner = abs(across) - vec2<f32>(0.10, 0.15);
+    let outside = length(max(corner, vec2<f32>(0.0))) + min(max(corner.x, corner.y), 0.0) - 0.08;
+    let box = smoothstep(0.035, -0.03, outside) * step(0.0, dot(mirror, lamp)) * (0.85 + 0.6 * across.y);
+    let second = smoothstep(0.955, 1.0, dot(mirror, unit(globals.fill.xyz - globals.up.xyz * 0.25, p.view)));
+    let lamp_light = globals.key_light.rgb * box + globals.fill_light.rgb * second * 0.22;
+    let bare = 0.025 + 0.975 * pow(1.0 - clamp(dot(p.view, p.normal), 0.0, 1.0), 5.0);
+    return lamp_light + sky(mirror) * (bare + 0.035) * shade;
+}
+
+// An eyeball: sclera, and behind the cornea the iris where refraction shows it.
+fn eye(at: Point, colour: vec3<f32>) -> vec3<f32> {
+    var p = at;
+    let to_left = p.position - globals.eyes[0].centre.xyz;
+    let to_right = p.position - globals.eyes[1].centre.xyz;
+    let e = select(0u, 1u, dot(to_right, to_right) < dot(to_left, to_left));
+    let radius = globals.eyes[e].centre.w;
+    // Light that has passed the lashes' shadow is soft.
+    p.lit = mix(0.3, 1.0, p.lit);
+    if radius <= 0.0 {
+        return colour * diffuse(p, 0.4) + eye_mirror(p, 1.0);
+    }
+    let own = transpose(mat3x3<f32>(globals.eyes[e].axes[0].xyz, globals.eyes[e].axes[1].xyz, globals.eyes[e].axes[2].xyz));
+    let place = own * (p.position - globals.eyes[e].centre.xyz) / radius;
+    let direction = unit(place, vec3<f32>(0.0, 0.0, 1.0));
+    let view = own * p.view;
+    let key = own * globals.key.xyz;
+
+    // Darkness beside the lids, more below the upper one and its lashes.
+    let flat_place = direction.xy / (1.0 + max(direction.z, -0.5));
+    let away = from_lids(e, flat_place);
+    let scale = 2000.0 * radius / (1.0 + dot(flat_place, flat_place));
+    let millimetres = length(away) * scale;
+    let upper = smoothstep(-0.3, 0.6, -away.y / max(length(away), 1e-5));
+    var shade = (1.0 - 0.70 * exp(-millimetres / 0.55)) * (1.0 - 0.62 * upper * exp(-millimetres / 2.2));
+    p.open *= shade;
+    p.lit *= 1.0 - 0.75 * upper * exp(-millimetres / 1.1);
+
+    let sin_up = direction.y * direction.y / max(dot(direction.xy, direction.xy), 1e-6);
+    let limbus = mix(globals.eyes[e].axes[0].w, globals.eyes[e].axes[1].w, sin_up);
+    let angle = acos(clamp(direction.z, -1.0, 1.0)) / limbus;
+
+    // White, brown with pigment towards the cornea and reddened by vessels towards the corners.
+    let vessels = grain(vec3<f32>(direction.xy * vec2<f32>(14.0, 60.0), direction.z * 9.0));
+    let white = mix(vec3<f32>(0.13, 0.080, 0.062), vec3<f32>(0.52, 0.44, 0.39), smoothstep(1.0, 1.75, angle));
+    let red = smoothstep(0.58, 0.72, vessels.x) * smoothstep(1.15, 1.6, angle);
+    var light = white * mix(vec3<f32>(1.0), vec3<f32>(0.95, 0.55, 0.48), red) * diffuse(p, 0.4);
+
+    let through = 1.0 - smoothstep(0.93, 1.05, angle);
+    if through > 0.0 {
+        let normal = own * p.normal;
+        // What is seen of the iris lies where the refracted line of sight meets its plane.
+        let inward = refract(-view, normal, FLUID);
+        let depth = cos(limbus) + 0.05;
+        let hit = place.xy + inward.xy * max((depth - place.z) / min(inward.z, -0.2), 0.0);
+        let r = length(hit) / (sin(limbus) * 0.97);
+        let rim = min(r, 1.0);
+        // Light is bent towards the axis; what the cornea gathers falls on the side away from the lamp.
+        let entering = clamp(key.z * 0.75 + 0.25, 0.0, 1.0) * p.lit;
+        let away_from_lamp = dot(hit, -key.xy) / max(length(hit) * length(key.xy), 1e-4);
+        let caustic = pow(max(away_from_lamp, 0.0), 2.0) * smoothstep(PUPIL * 0.9, 0.75, rim) * (1.0 - smoothstep(0.88, 1.0, rim));
+        var inside = globals.key_light.rgb * entering * (0.34 + 1.25 * caustic);
+        inside += globals.fill_light.rgb * 0.5 * p.open + gathered(p.normal) * p.open * 0.8;
+        let pixel = max(length(dpdx(hit)), length(dpdy(hit)));
+        let border = max(0.035, pixel);
+        let open_pupil = 1.0 - smoothstep(PUPIL - border, PUPIL + border, r);
+        let tissue = iris_colour(globals.eyes[e].iris.rgb, hit, rim);
+        let seen = mix(tissue, vec3<f32>(0.0022, 0.0018, 0.0016), open_pupil) * inside;
+        light = mix(light, seen, through);
+    }
+    return light + eye_mirror(p, shade) * mix(0.35, 1.0, smoothstep(0.0, 0.5, millimetres));
+}
+
+// The tongue: flesh that lets light in, with papillae of half a millimetre.
+fn tongue(at: Point, colour: vec3<f32>, gloss: f32) -> vec3<f32> {
+    var p = at;
+    let pixel = max(length(dpdx(p.position)), length(dpdy(p.position))) * 2000.0;
+    let seen = 1.0 - smoothstep(0.3, 0.9, pixel);
+    let papilla = cobbles(p.position * 2000.0);
+    let outward = papilla.xyz - p.normal * dot(papilla.xyz, p.normal);
+    p.normal = unit(p.normal + outward * (0.5 * seen), p.normal);
+    let flesh = colour * mix(1.0, 0.75 + 0.35 * papilla.w, seen);
+    let soft = flesh * (diffuse(p, 0.45) + vec3<f32>(0.25, 0.05, 0.04) * globals.key_light.rgb * 0.3 * p.lit);
+    return soft + moisture(p, max(gloss, 0.55));
+}
+
+// The line of tears: a thin bright rim wherever some part of its round surface mirrors the lamp.
+fn tears(p: Point, colour: vec3<f32>) -> vec3<f32> {
+    let half_way = unit(p.view + globals.key.xyz, p.normal);
+    let e = select(0u, 1u, p.position.x < 0.0);
+    let sideways = globals.eyes[e].axes[0].xyz;
+    let along = unit(sideways - p.normal * dot(sideways, p.normal), p.normal);
+    let across = 1.0 - pow(dot(along, half_way), 2.0);
+    let glint = pow(max(across, 0.0), 60.0) * (0.3 + 0.7 * p.lit);
+    return colour * diffuse(p, 0.3) * 0.7 + moisture(p, 1.0) + globals.key_light.rgb * glint * 0.55;
 }
 
 @fragment
@@ -284,13 +445,13 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     var light: vec3<f32>;
     switch kind {
         case NOSE: {
-            light = leather(point, colour, max(gloss, 0.6), 310.0, 0.65, 0.24);
+            light = leather(point, colour, max(gloss, 0.6), in.rest * 900.0, 0.62, 0.24);
         }
         case LIP: {
-            light = leather(point, colour, max(gloss, 0.35), 420.0, 0.35, 0.38);
+            light = leather(point, colour, max(gloss, 0.35), in.rest * 1800.0, 0.25, 0.34);
         }
         case MOUTH: {
-            light = leather(point, colour, max(gloss, 0.7), 180.0, 0.2, 0.22);
+            light = leather(point, colour, max(gloss, 0.7), in.rest * 600.0, 0.15, 0.22);
         }
         case EYE: {
             light = eye(point, colour);
@@ -298,14 +459,26 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         case CAP: {
             light = colour * diffuse(point, 0.3);
         }
-        case BONE, TOOTH: {
+        case BONE, TOOTH, WHISKER, GUM: {
             light = colour * diffuse(point, 0.2) + moisture(point, gloss);
+        }
+        case TONGUE: {
+            light = tongue(point, colour, gloss);
+        }
+        case TEARS: {
+            light = tears(point, colour);
         }
         default: {
             light = coat(point, colour, in.flow, fur);
             // Bare or moist margins shade off into the coat.
             light += moisture(point, gloss * (1.0 - fur));
         }
+    }
+    if is_made_of(CLAY) {
+        light = CLAY_COLOUR * diffuse(point, 0.15);
+    }
+    if is_made_of(INK) {
+        light = vec3<f32>(0.0);
     }
     var opacity = 1.0;
     if seen_through {

@@ -124,10 +124,10 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     // Deep in the coat it is dark.
     let open = (1.0 - 0.9 * hidden) * mix(0.65, 1.1, t);
     let fibre = mix(0.85, 1.2, sine(dot(heading, key)));
-    var light = KEY * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
-    light += FILL * wrapped(n, globals.fill.xyz, 0.5) * open;
-    light += RIM * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
-    light += sky(n) * open;
+    var light = globals.key_light.rgb * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
+    light += globals.fill_light.rgb * wrapped(n, globals.fill.xyz, 0.5) * open;
+    light += globals.rim_light.rgb * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
+    light += gathered(n) * open;
     light *= albedo;
 
     // Two highlights along the hair, after Kajiya and Kay (1989) and the shifts of Scheuermann (2004): one of the light
@@ -140,12 +140,12 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     let pale = mix(0.45, 1.0, smoothstep(0.01, 0.25, brightness));
     let gleam = vec3<f32>(0.035 * pale) * pow(first, 40.0) + (albedo * 0.20 + 0.006 * pale) * pow(second, 9.0);
     let reached = lit * clamp(dot(s.normal, key) * 1.5 + 0.2, 0.0, 1.0) * mix(0.3, 1.0, t);
-    light += KEY * gleam * gloss * reached;
+    light += globals.key_light.rgb * gleam * gloss * reached;
 
     // Tips before the light shine through.
     let edge = pow(1.0 - clamp(dot(s.normal, view), 0.0, 1.0), 3.0);
-    let behind = RIM * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
-    light += mix(albedo, vec3<f32>(1.0), 0.08) * (behind * 0.5 + KEY * 0.08 * lit) * edge * t * (1.0 - hidden);
+    let behind = globals.rim_light.rgb * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
+    light += mix(albedo, vec3<f32>(1.0), 0.08) * (behind * 0.5 + globals.key_light.rgb * 0.08 * lit) * edge * t * (1.0 - hidden);
     return light;
 }
 
@@ -242,7 +242,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     albedo *= mix(mix(0.85, 0.62, smoothstep(0.002, 0.015, s.length)), 1.18, t);
     let reach = skin + s.normal * (0.004 * globals.measures.x + 0.5 * s.length * s.lift);
     let lit = shadow(reach, other);
-    let light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);
+    if is_made_of(CLAY) {
+        albedo = CLAY_COLOUR;
+    }
+    var light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);
+    if is_made_of(INK) {
+        light = vec3<f32>(0.0);
+    }
 
     // A ribbon across the line of sight, at least a pixel wide and then the more transparent.
     let half_size = globals.viewport.xy * 0.5;

@@ -618,6 +618,35 @@ fn lines_are_not_drawn_over_a_sheet() {
 }
 
 #[test]
+fn presets_grounds_samples_and_close_ups_change_nothing() {
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    let draw = |options: &[&str]| {
+        let common = ["render", "--breed", "pug", "--level", "1", "--size", "48x48", "-o", text(&path)];
+        done(&[&common[..], options].concat());
+        std::fs::read(&path).unwrap()
+    };
+    let words: [&[&str]; 10] = [
+        &[],
+        &["--preset", "daylight"],
+        &["--preset", "clay"],
+        &["--preset", "plate"],
+        &["--preset", "x-ray"],
+        &["--preset", "silhouette"],
+        &["--preset", "silhouette", "--hair", "medium"],
+        &["--background", "transparent"],
+        &["--samples", "4"],
+        &["--at", "K29R", "--zoom", "6"],
+    ];
+    let pictures = words.map(draw);
+    for (i, one) in pictures.iter().enumerate() {
+        assert!(pictures[..i].iter().all(|other| other != one), "{:?} is like another", words[i]);
+    }
+    assert!(draw(&["--preset", "studio", "--background", "gradient", "--samples", "16"]) == pictures[0]);
+    refused(&["render", "--breed", "pug", "--at", "K99", "-o", text(&path)], 2, &["no landmark 'K99'", "such as K29"]);
+}
+
+#[test]
 fn words_about_pictures_that_make_no_sense_are_wrong_use() {
     let with = |option: &str, value: &str, words: &[&str]| {
         refused(&["render", "--breed", "pug", option, value, "-o", "x.png"], 2, words);
@@ -626,6 +655,10 @@ fn words_about_pictures_that_make_no_sense_are_wrong_use() {
     with("--size", "0x10", &["WIDTHxHEIGHT"]);
     with("--size", "10", &["WIDTHxHEIGHT"]);
     with("--background", "whte", &["did you mean white?"]);
+    with("--background", "transparant", &["did you mean transparent?"]);
+    with("--preset", "sepia", &["studio, daylight, clay, plate, x-ray, silhouette"]);
+    with("--samples", "8", &["say 4 (fast), 16, 36 or 64"]);
+    with("--zoom", "0", &["allowed 1"]);
     with("--lens", "0", &["focal length"]);
     with("--pitch", "400", &["allowed -90 to 90"]);
     refused(&["render", "--breed", "pug"], 2, &["--output"]);

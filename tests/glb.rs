@@ -85,6 +85,7 @@ impl Hand {
             colours: &self.colours,
             surface: &self.normals,
             flow: &self.normals,
+            rest: &self.normals,
             uv: None,
         };
         Frame {
@@ -93,6 +94,7 @@ impl Hand {
             control_indices: &[],
             plan: None,
             whiskers: &[],
+            eyes: &[],
             coat: None,
             revisions: Revisions::default(),
         }
@@ -414,6 +416,7 @@ fn a_range_without_triangles_and_a_frame_without_parts_are_left_out() {
         control_indices: &[],
         plan: None,
         whiskers: &[],
+        eyes: &[],
         coat: None,
         revisions: Revisions::default(),
     };

@@ -5,7 +5,7 @@ use super::history::History;
 use super::measures::Measures;
 use crate::anatomy::{Breed, ParamTable};
 use crate::frame::Layers;
-use crate::render::{Background, Camera, Lens, Shading, View};
+use crate::render::{Background, Camera, Lens, Preset, Shading, View};
 use glam::Vec3;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
@@ -164,6 +164,8 @@ pub struct EditorState {
     pub light_turn: f32,
     /// Whether the graphics card evaluates the skin that is drawn. The processor does in any case: it is what is exported.
     pub on_card: bool,
+    /// In which light, and as what.
+    preset: Preset,
     /// Behind the head.
     pub background: Background,
     /// What the next random dog depends on.
@@ -212,7 +214,8 @@ impl EditorState {
             wants_fit: true,
             light_turn: 0.0,
             on_card: false,
-            background: Background::default(),
+            preset: Preset::default(),
+            background: Preset::default().background(),
             chance: Chance::default(),
             measures: Measures::default(),
             search: String::new(),
@@ -504,6 +507,20 @@ impl EditorState {
     pub fn look_from(&mut self, view: View) {
         self.camera = Camera { target: self.camera.target, ..Camera::at(view, None, self.camera.lens) };
         self.wants_fit = true;
+    }
+
+    /// In which light the head is shown, and as what.
+    pub fn preset(&self) -> Preset {
+        self.preset
+    }
+
+    /// Takes a preset with its ground, and its layers where they differ from those of the one before.
+    pub fn set_preset(&mut self, preset: Preset) {
+        if preset.layers() != self.preset.layers() {
+            self.layers = preset.layers();
+        }
+        self.preset = preset;
+        self.background = preset.background();
     }
 
     /// Puts the camera where it was at the start.

@@ -6,7 +6,7 @@ use super::panels;
 use super::scene::Scene;
 use super::state::EditorState;
 use crate::frame::{Frame, Pipeline, PipelineError};
-use crate::render::{Drawing, Gpu, ShaderError, ShaderSources, Shading};
+use crate::render::{Drawing, Gpu, Samples, ShaderError, ShaderSources, Shading};
 use crate::rig::{Rig, RigError};
 use std::sync::Arc;
 use std::time::Instant;
@@ -154,12 +154,14 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
     Drawing {
         camera: state.camera,
         shading: state.shading,
+        preset: state.preset(),
         background: state.background,
         light_turn: state.light_turn,
         on_card: state.on_card,
         skin_opacity: state.layers.skin,
         // Hair would hide the lines.
-        n_strands: if state.shading == Shading::Shaded { state.n_strands } else { 0 },
+        n_strands: if state.shading == Shading::Shaded && state.preset().has_hair() { state.n_strands } else { 0 },
+        samples: Samples::FEWEST,
         pixels_per_point,
     }
 }

@@ -1,8 +1,8 @@
 //! Commands and options, as clap reads them.
 
-use super::values::{self, Setting, Share};
+use super::values::{self, Ground, Setting, Share};
 use crate::frame::Layers;
-use crate::render::{Background, Lens, View as Direction};
+use crate::render::{Lens, Preset, Samples, View as Direction};
 use crate::subdiv::{BoundaryRule, Creasing, LoopWeights, Rim, Scheme};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -138,15 +138,24 @@ pub(super) struct Scene {
     /// Focal length in millimetres on 36 x 24, or ortho
     #[arg(long, value_name = "MM|ortho", default_value = "85")]
     pub lens: Lens,
-    /// none, white, black, grey, silver, or rrggbb; without it, a quiet grey
-    #[arg(long, value_name = "COLOUR|none", value_parser = values::background)]
-    pub background: Option<Background>,
+    /// studio, daylight, clay (one matt colour without hair), plate (flat light before plain paper, for measuring), x-ray
+    /// (bone through the skin), or silhouette (black on white): light, ground, layers and hair at once, each of which
+    /// another option overrides
+    #[arg(long, value_name = "NAME", default_value = "studio")]
+    pub preset: Preset,
+    /// plain or gradient (the preset's own colours), transparent, white, black, grey, silver, or rrggbb; without it, what
+    /// the preset has
+    #[arg(long, value_name = "plain|gradient|transparent|COLOUR", value_parser = values::background)]
+    pub background: Option<Ground>,
+    /// Samples of each pixel: 4 (fast), 16, 36 or 64 (smooth); without it 16
+    #[arg(long, value_name = "N")]
+    pub samples: Option<Samples>,
     /// What is there, with commas between: skin, eyes, whiskers, bone, teeth, mouth, tongue; skin=0.3 is seen
-    /// through
-    #[arg(long, value_name = "A,B,C", default_value = "skin,eyes,whiskers", value_parser = Layers::parse)]
-    pub layers: Layers,
+    /// through; without it, what the preset has
+    #[arg(long, value_name = "A,B,C", value_parser = Layers::parse)]
+    pub layers: Option<Layers>,
     /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
-    /// one head, low for a sheet, off below lines
+    /// one head, low for a sheet, off below lines and where the preset has none
     #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
     pub hair: Option<u32>,
     /// How far the lids are closed, 0 to 1; two numbers with a comma: the left ones and the right ones
@@ -184,7 +193,8 @@ pub(super) struct Target {
 #[command(after_help = "Examples:\n  \
     londra render --breed pug -o pug.png\n  \
     londra render --breed beagle --view side --size 800x600 --background none -o beagle.png\n  \
-    londra render --breed pug --view side --layers skin=0.3,bone,teeth -o xray.png\n  \
+    londra render --breed pug --view side --preset x-ray -o xray.png\n  \
+    londra render --breed pug --at K29 --zoom 8 -o eye.png\n  \
     londra render --breed borzoi --blend pug=0.5 --view 120,20 --pitch 0 -o - | display")]
 pub(super) struct Render {
     #[command(flatten)]
@@ -200,6 +210,12 @@ pub(super) struct Render {
     /// Width and height of the picture, pixels
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = values::size)]
     pub size: Size,
+    /// How many times larger than the head that fills the picture, 1 to 40
+    #[arg(long, value_name = "TIMES", default_value = "1", value_parser = values::zoom)]
+    pub zoom: f32,
+    /// The landmark in the middle of the picture, as 'londra landmarks' names them; of two, the left one, or with R the right
+    #[arg(long, value_name = "ID[L|R]")]
+    pub at: Option<String>,
     #[command(flatten)]
     pub scene: Scene,
     #[command(flatten)]

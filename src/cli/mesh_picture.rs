@@ -44,6 +44,7 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         colours: &colours,
         surface: &nothing,
         flow: &nothing,
+        rest: &nothing,
         uv: None,
     };
     let revisions = Revisions::default();
@@ -53,6 +54,7 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         control_indices: &edges,
         plan: None,
         whiskers: &[],
+        eyes: &[],
         coat: None,
         revisions,
     };

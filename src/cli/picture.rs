@@ -4,9 +4,11 @@ use super::args::{Render, Scene, Sheet as SheetArgs, Wires};
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::anatomy::Breed;
-use crate::frame::Frame;
+use crate::frame::{Frame, Layers};
+use crate::measure::{Landmark, Side, skin_landmarks};
 use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use crate::rig::Pose;
+use glam::Vec3;
 use serde_json::json;
 
 /// The side of a cell when nobody says how large the sheet shall be, pixels.
@@ -23,17 +25,25 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    let layers = layers(&args.scene);
+    pipeline.set_layers(layers).map_err(Failure::work)?;
     let n_strands = hair(&args.scene, HAIR);
     pipeline.set_hair(n_strands as usize);
     pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
+    let rig = pipeline.rig().clone();
     let frame = pipeline.update(&breed);
 
-    let camera = camera(&frame, args.view, args.scene.pitch, args.scene.lens, args.size);
+    let mut camera = camera(&frame, args.view, args.scene.pitch, args.scene.lens, args.size);
+    if let Some(id) = &args.at {
+        camera.look_at(landmark(&skin_landmarks(&rig, &breed.values, &frame), id)?);
+    }
+    camera.zoom(args.zoom);
     let drawing = Drawing {
         background: background(&args.scene),
-        skin_opacity: args.scene.layers.skin,
+        preset: args.scene.preset,
+        samples: args.scene.samples.unwrap_or_default(),
+        skin_opacity: layers.skin,
         shading: shading(&args.scene),
         n_strands,
         ..Drawing::new(camera)
@@ -67,7 +77,8 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let breeds: Vec<Breed> =
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    pipeline.set_layers(args.scene.layers).map_err(Failure::work)?;
+    let layers = layers(&args.scene);
+    pipeline.set_layers(layers).map_err(Failure::work)?;
     let n_strands = hair(&args.scene, SHEET_HAIR);
     pipeline.set_hair(n_strands as usize);
     pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
@@ -82,7 +93,9 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     };
     let Scene { pitch, lens, .. } = args.scene;
     let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
-    sheet.skin_opacity = args.scene.layers.skin;
+    sheet.skin_opacity = layers.skin;
+    sheet.preset = args.scene.preset;
+    sheet.samples = args.scene.samples.unwrap_or_default();
     sheet.shading = shading(&args.scene);
     sheet.n_strands = n_strands;
     sheet.heads_across = args.columns;
@@ -127,12 +140,31 @@ fn on_paper(sheet: &Picture, [width, height]: [u32; 2]) -> Picture {
 }
 
 fn background(scene: &Scene) -> Background {
-    scene.background.unwrap_or_default()
+    scene.background.map_or_else(|| scene.preset.background(), |ground| ground.of(scene.preset))
 }
 
-/// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces.
+fn layers(scene: &Scene) -> Layers {
+    scene.layers.unwrap_or_else(|| scene.preset.layers())
+}
+
+/// The place of a landmark by its id, with L or R behind it where a side is meant; else of two the left one.
+fn landmark(all: &[Landmark], word: &str) -> Result<Vec3, Failure> {
+    let side = match word.chars().last() {
+        Some('R') => Side::Right,
+        _ => Side::Left,
+    };
+    let id = word.trim_end_matches(['L', 'R']);
+    let found = all.iter().find(|l| l.id == id && [side, Side::Median].contains(&l.side));
+    found.map(|l| l.position).ok_or_else(|| {
+        Failure::Use(format!(
+            "there is no landmark '{word}' on the skin; 'londra landmarks' names them, such as K29 or K29R"
+        ))
+    })
+}
+
+/// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces and the preset has hair.
 fn hair(scene: &Scene, otherwise: u32) -> u32 {
-    scene.hair.unwrap_or(if scene.wireframe.is_some() { 0 } else { otherwise })
+    scene.hair.unwrap_or(if scene.wireframe.is_some() || !scene.preset.has_hair() { 0 } else { otherwise })
 }
 
 fn shading(scene: &Scene) -> Shading {

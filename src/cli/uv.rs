@@ -36,7 +36,7 @@ pub(super) fn run(args: &UvLayout) -> Result<(), Failure> {
         let [a, b, c] = triangle(f);
         [(a, b), (b, c), (c, a)].into_iter().for_each(|(a, b)| line(&mut picture, a, b));
     }
-    let bytes = picture.halved().to_png().map_err(Failure::work)?;
+    let bytes = picture.reduced(2).to_png().map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "size": args.size, "charts": 2 * uv.charts.len() - 1,
     });

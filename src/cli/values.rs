@@ -3,7 +3,7 @@
 use super::args::Lids;
 use crate::anatomy::{colour, nearest};
 use crate::coat;
-use crate::render::{Background, View};
+use crate::render::{Background, Preset, View};
 use crate::subdiv::Scheme;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -45,21 +45,51 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     pair.ok_or_else(|| "say WIDTHxHEIGHT in pixels, each 1 to 16384, such as 1024x768".into())
 }
 
-/// `none`, a name, or `rrggbb` with or without `#` (which shells take for a comment).
-pub(super) fn background(text: &str) -> Result<Background, String> {
+/// What shall stand behind the head; which colours that is may depend on the preset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ground {
+    Plain,
+    Gradient,
+    Own(Background),
+}
+
+impl Ground {
+    pub(super) fn of(self, preset: Preset) -> Background {
+        match self {
+            Self::Plain => preset.plain(),
+            Self::Gradient => preset.gradient(),
+            Self::Own(background) => background,
+        }
+    }
+}
+
+/// `plain`, `gradient`, `transparent` or `none`, a name, or `rrggbb` with or without `#` (which shells take for a comment).
+pub(super) fn background(text: &str) -> Result<Ground, String> {
     const NAMED: [(&str, [u8; 3]); 5] =
         [("white", [255; 3]), ("black", [0; 3]), ("grey", [128; 3]), ("gray", [128; 3]), ("silver", [192; 3])];
-    if text == "none" {
-        return Ok(Background::None);
+    const KINDS: [(&str, Ground); 4] = [
+        ("plain", Ground::Plain),
+        ("gradient", Ground::Gradient),
+        ("transparent", Ground::Own(Background::None)),
+        ("none", Ground::Own(Background::None)),
+    ];
+    if let Some((_, kind)) = KINDS.iter().find(|(name, _)| *name == text) {
+        return Ok(*kind);
     }
     if let Some((_, rgb)) = NAMED.iter().find(|(name, _)| *name == text) {
-        return Ok(Background::Plain(*rgb));
+        return Ok(Ground::Own(Background::Plain(*rgb)));
     }
     let hex = format!("#{}", text.trim_start_matches('#'));
-    let known = colour::from_hex(&hex).map(|linear| Background::Plain(colour::to_srgb8(linear)));
+    let known = colour::from_hex(&hex).map(|linear| Ground::Own(Background::Plain(colour::to_srgb8(linear))));
     known.ok_or_else(|| {
-        let near = nearest(text, NAMED.iter().map(|(name, _)| (*name, *name)).chain([("none", "none")]));
-        format!("say none, white, black, grey, silver or rrggbb such as 20242c{}", did_you_mean(&near))
+        let near = nearest(
+            text,
+            NAMED.iter().map(|(name, _)| *name).chain(KINDS.iter().map(|(name, _)| *name)).map(|n| (n, n)),
+        );
+        format!(
+            "say plain, gradient, transparent, white, black, grey, silver or rrggbb such as 20242c{}",
+            did_you_mean(&near)
+        )
     })
 }
 
@@ -71,6 +101,15 @@ pub(super) fn hair(text: &str) -> Result<u32, String> {
         let near = nearest(text, coat::LEVELS.iter().map(|(name, _)| (*name, *name)));
         format!("say off, low, medium, high or a number from 0 to {}{}", coat::MAX_STRANDS, did_you_mean(&near))
     })
+}
+
+/// How many times larger.
+pub(super) fn zoom(text: &str) -> Result<f32, String> {
+    let times = number(text)?;
+    if !(1.0..=40.0).contains(&times) {
+        return Err(format!("the zoom is {times}, allowed 1 (all of the head) to 40 times"));
+    }
+    Ok(times as f32)
 }
 
 /// Degrees, as radians.
@@ -178,8 +217,10 @@ mod tests {
         for text in ["640", "0x5", "5x0", "x", "-5x5", "99999x5", "1e3x5", "640x480x3"] {
             assert!(size(text).is_err(), "{text}");
         }
-        assert_eq!(background("none"), Ok(Background::None));
-        assert_eq!(background("#102030"), Ok(Background::Plain([16, 32, 48])));
+        let own = |background| Ok(Ground::Own(background));
+        assert_eq!([background("none"), background("transparent")], [own(Background::None), own(Background::None)]);
+        assert_eq!([background("plain"), background("gradient")], [Ok(Ground::Plain), Ok(Ground::Gradient)]);
+        assert_eq!(background("#102030"), own(Background::Plain([16, 32, 48])));
         assert_eq!(background("102030"), background("#102030"));
         assert!(background("whit").unwrap_err().contains("did you mean white?"));
         assert!(background("12345").is_err());
@@ -193,6 +234,8 @@ mod tests {
             assert!(hair(text).is_err(), "{text}");
         }
         assert!(hair("hihg").unwrap_err().contains("did you mean high?"));
+        assert_eq!(zoom("2.5"), Ok(2.5));
+        assert!(zoom("0.5").is_err() && zoom("nan").is_err() && zoom("41").is_err());
         assert!(pitch("91").is_err() && pitch("x").is_err());
         assert_eq!(angle("180"), Ok(std::f64::consts::PI));
         assert!(angle("-1").is_err() && angle("181").is_err() && angle("nan").is_err());

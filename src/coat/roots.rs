@@ -69,12 +69,8 @@ fn density(region: Region) -> f32 {
 ///
 /// Shares are by the area of the base head, so that they depend on the topology alone.
 pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool], n: usize) -> Vec<Root> {
-    let half = rig.half();
-    let base: Vec<Vec3> = half.base.iter().map(|&p| Vec3::from(p)).collect();
-    let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
-    half.unfold(&base, &mut control);
-    let (skin, _) = evaluate_once(plan, &control);
-    let regions = half.whole_regions();
+    let (skin, _) = evaluate_once(plan, &rig.base());
+    let regions = rig.half().whole_regions();
     // Up to the rim of what is bare, whose own triangles have another material.
     let borders = borders(rig, &regions);
     let of_vertex = regions.iter().zip(borders).map(|(&r, border)| if border { BORDER } else { density(r) });

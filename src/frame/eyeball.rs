@@ -6,7 +6,31 @@ use super::parts::{Material, MaterialRange, PartTopology};
 use super::uv::Uv;
 use crate::math::ops;
 use crate::rig::Eye;
-use glam::{Vec3, vec2, vec3};
+use glam::{Vec2, Vec3, vec2, vec3};
+
+/// An eyeball behind its lids, for who draws more of it than its mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Eyeball {
+    /// Its place and size.
+    pub eye: Eye,
+    /// Colour of the iris, linear.
+    pub iris: Vec3,
+    /// The inner margins of the lids, one after the other around the opening: directions from the centre in the eye's own
+    /// axes (x, y, z), projected to (x, y) / (1 + z).
+    pub lids: [Vec2; 12],
+}
+
+impl Eyeball {
+    /// `margins`: of the lids, metres.
+    pub(super) fn new(eye: Eye, iris: Vec3, margins: [Vec3; 12]) -> Self {
+        let lids = margins.map(|p| {
+            let direction = (p - eye.centre).normalize_or(eye.axes[2]);
+            let [a, b, g] = eye.axes.map(|axis| axis.dot(direction));
+            vec2(a, b) / (1.0 + g).max(0.1)
+        });
+        Self { eye, iris, lids }
+    }
+}
 
 const SEGMENTS: usize = 72;
 /// Degrees off the optical axis on an eye whose limbus is at `IRIS`; on others they are stretched to their own limbus.

@@ -13,6 +13,7 @@ mod uv;
 mod values;
 mod whiskers;
 
+pub use eyeball::Eyeball;
 pub use layers::{Layers, LayersError};
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};
 pub use pipeline::{MAX_LEVEL, Pipeline, PipelineError};

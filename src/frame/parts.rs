@@ -3,6 +3,7 @@
 //! Lifetimes: [`PartTopology`] changes with the level of subdivision only, the value slices of a [`Part`] whenever the
 //! breed or its look does. [`Revisions`] says which, so that a consumer uploads what moved and nothing else.
 
+use super::eyeball::Eyeball;
 use super::uv::Uv;
 use crate::coat::Coat;
 use crate::rig::whiskers::Whisker;
@@ -84,6 +85,9 @@ pub struct Part<'a> {
     pub surface: &'a [Vec3],
     /// Direction in which hair lies, in the head's frame; not unit, not exactly tangent; zero where there is none.
     pub flow: &'a [Vec3],
+    /// Where each vertex lies on the base head, metres: what is to stay in place on the surface whatever the head does is a
+    /// function of it. Zero where nothing is.
+    pub rest: &'a [Vec3],
     /// Where the part has a texture's layout and it has been asked for.
     pub uv: Option<&'a Uv>,
 }
@@ -115,6 +119,8 @@ pub struct Frame<'a> {
     pub plan: Option<&'a Plan>,
     /// Whiskers, the left ones, then their mirror images; empty where they are not shown.
     pub whiskers: &'a [Whisker],
+    /// What a picture is to know of the eyeballs beside their meshes, the left one first; empty where they are not shown.
+    pub eyes: &'a [Eyeball],
     /// Hair on the first part; none where that is no skin. Its roots are as many as have been asked for.
     pub coat: Option<Coat<'a>>,
     /// What has changed since the last frame.

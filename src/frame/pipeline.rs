@@ -5,6 +5,7 @@
 //! the look did.
 
 use super::dyes::Dyes;
+use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
 use super::layers::Layers;
 use super::mouth::MouthParts;
@@ -18,12 +19,15 @@ use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Root};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
-use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme};
+use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
 use glam::Vec3;
 use std::sync::Arc;
 
 /// Deepest level of subdivision that a pipeline makes.
 pub const MAX_LEVEL: u32 = 5;
+
+/// A head unit of the base head, metres.
+const CENTIMETRE: f32 = 0.01;
 
 /// Why a pipeline cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +60,8 @@ pub struct Pipeline {
     control_surface: Vec<Vec3>,
     parts: [Values; 4],
     eyelids: EyelidParts,
+    /// Left and right.
+    eyeballs: [Eyeball; 2],
     whiskers: WhiskerParts,
     layers: Layers,
     /// Whether parts have texture coordinates.
@@ -109,6 +115,7 @@ impl Pipeline {
             control_surface: vec![Vec3::ZERO; n],
             parts,
             eyelids: EyelidParts::new(&rig)?,
+            eyeballs: Default::default(),
             whiskers: WhiskerParts::new(&rig, &plan)?,
             layers: Layers::default(),
             uv: false,
@@ -134,8 +141,11 @@ impl Pipeline {
     }
 
     fn parts(rig: &Rig, plan: &Plan) -> [Values; 4] {
+        let mut skin = Values::new(skin::topology(rig, plan));
+        let (rest, _) = evaluate_once(plan, &rig.base());
+        skin.rest = rest.into_iter().map(|p| p * CENTIMETRE).collect();
         [
-            Values::new(skin::topology(rig, plan)),
+            skin,
             Values::new(cap_topology(plan)),
             Values::new(eyeball::topology("eye_L")),
             Values::new(eyeball::topology("eye_R")),
@@ -285,7 +295,18 @@ impl Pipeline {
             self.look = Some(breed.look.clone());
             self.revisions.look += 1;
         }
+        self.eyeballs = self.open_eyes(&breed.look);
         self.frame()
+    }
+
+    /// The eyes between the lids as they are now.
+    fn open_eyes(&self, look: &Look) -> [Eyeball; 2] {
+        let inner = self.rig.plan().handles().ei;
+        let skin = &self.parts[0].positions;
+        let sides = [inner.map(usize::from), inner.map(|v| self.rig.image(usize::from(v)))];
+        let [left, right] = self.deformed.eyes;
+        [(left, sides[0]), (right, sides[1])]
+            .map(|(eye, margins)| Eyeball::new(eye, look.iris, margins.map(|v| skin[v])))
     }
 
     /// The last frame again.
@@ -296,6 +317,7 @@ impl Pipeline {
             control_indices: self.rig.mesh().indices(),
             plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
             whiskers: if self.layers.whiskers { &self.whiskers.whiskers } else { &[] },
+            eyes: if self.layers.eyes { &self.eyeballs } else { &[] },
             coat: self.coat(),
             revisions: self.revisions,
         }

@@ -14,6 +14,7 @@ pub(super) struct Values {
     pub(super) colours: Vec<Vec3>,
     pub(super) surface: Vec<Vec3>,
     pub(super) flow: Vec<Vec3>,
+    pub(super) rest: Vec<Vec3>,
     /// Where it has been asked for.
     pub(super) uv: Option<Uv>,
 }
@@ -27,7 +28,8 @@ impl Values {
             normals: zero.clone(),
             colours: zero.clone(),
             surface: zero.clone(),
-            flow: zero,
+            flow: zero.clone(),
+            rest: zero,
             uv: None,
         }
     }
@@ -40,6 +42,7 @@ impl Values {
             colours: &self.colours,
             surface: &self.surface,
             flow: &self.flow,
+            rest: &self.rest,
             uv: self.uv.as_ref(),
         }
     }

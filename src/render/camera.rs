@@ -214,6 +214,19 @@ impl Camera {
         self.distance = distance;
     }
 
+    /// Puts a point (metres, head) into the middle of the picture; the camera keeps its direction and distance.
+    pub fn look_at(&mut self, point: Vec3) {
+        self.target = self.world_from_head() * point;
+    }
+
+    /// Draws everything so many times larger: a longer lens, which leaves the perspective as it is.
+    pub fn zoom(&mut self, times: f32) {
+        match &mut self.lens {
+            Lens::Millimetres(focal) => *focal *= times,
+            Lens::Orthographic => self.distance /= times,
+        }
+    }
+
     /// The distance from which a point, relative to the target in view axes, is just inside the tangents.
     fn needed_distance(&self, p: Vec3, tangents: Vec2) -> f32 {
         let across = (p.x.abs() / tangents.x).max(p.y.abs() / tangents.y);

@@ -1,6 +1,9 @@
 //! What every shader reads: one uniform block for a picture.
 
 use super::camera::Camera;
+use super::lights::{Lamp, Lights};
+use super::preset::Preset;
+use crate::frame::Eyeball;
 use crate::math::ops;
 use glam::{Mat4, Vec3, Vec4};
 
@@ -19,20 +22,49 @@ pub(super) struct Globals {
     background_bottom: Vec4,
     measures: Vec4,
     viewport: Vec4,
-    /// How much of the haired skin is covered by strands, 0 to 1; the rest is free.
+    /// How much of the haired skin is covered by strands, 0 to 1; which [`Stuff`](super::preset::Stuff) surfaces are of; exposure; free.
     pub(super) coat: Vec4,
+    key_light: Vec4,
+    fill_light: Vec4,
+    rim_light: Vec4,
+    zenith: Vec4,
+    horizon: Vec4,
+    ground: Vec4,
+    gathered: [Vec4; 3],
+    /// The left one and the right.
+    eyes: [EyeBlock; 2],
 }
 
-/// Where a lamp stands: degrees around the vertical from the camera, and above the horizontal.
-struct Lamp {
-    azimuth: f32,
-    elevation: f32,
+/// The struct `Eyeball` of `globals.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+struct EyeBlock {
+    /// Metres, head's frame; and the radius, 0 where there is no such eye.
+    centre: Vec4,
+    /// Unit; and the limbus' angle to the side, to above, and nothing.
+    axes: [Vec4; 3],
+    /// Linear.
+    iris: Vec4,
+    /// Two points of the opening between the lids each, in the plane of [`Eyeball::lids`].
+    lids: [Vec4; 6],
 }
 
-// A portrait studio that turns with the camera, so that every view is lit from its upper left; heights stay.
-const KEY: Lamp = Lamp { azimuth: -38.0, elevation: 42.0 };
-const FILL: Lamp = Lamp { azimuth: 48.0, elevation: 8.0 };
-const RIM: Lamp = Lamp { azimuth: 152.0, elevation: 38.0 };
+impl EyeBlock {
+    fn of(eyeball: &Eyeball) -> Self {
+        let Eyeball { eye, iris, lids } = eyeball;
+        let [side, up] = eye.limbus();
+        let [a, b, g] = eye.axes;
+        Self {
+            centre: eye.centre.extend(eye.radius),
+            axes: [a.extend(side), b.extend(up), g.extend(0.0)],
+            iris: iris.extend(1.0),
+            lids: std::array::from_fn(|i| {
+                let (one, other) = (lids[2 * i], lids[2 * i + 1]);
+                Vec4::new(one.x, one.y, other.x, other.y)
+            }),
+        }
+    }
+}
 
 /// The sphere around all that is drawn, in the head's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +86,9 @@ impl Extent {
 }
 
 impl Globals {
-    /// `size`: of the picture in pixels; `light_turn`: of the studio around the vertical, radians; `shadow_texels`:
+    /// Without eyes and hair. `size`: of the picture in pixels; `light_turn`: of the studio around the vertical, radians; `shadow_texels`:
     /// side of the shadow map; `background`: top and bottom as they stand in the file, sRGB; `skin_opacity`: 0 to 1.
+    #[expect(clippy::too_many_arguments, reason = "one block holds all that a picture depends on")]
     pub(super) fn new(
         camera: &Camera,
         extent: Extent,
@@ -64,7 +97,9 @@ impl Globals {
         shadow_texels: u32,
         background: [Vec4; 2],
         skin_opacity: f32,
+        preset: Preset,
     ) -> Self {
+        let Lights { key: key_lamp, fill, rim, sky, exposure } = preset.lights();
         let [width, height] = size.map(|s| s.max(1) as f32);
         let head_from_world = camera.world_from_head().transpose();
         let towards = |lamp: &Lamp| {
@@ -75,7 +110,7 @@ impl Globals {
             let direction = Vec3::new(across * level, height, forward * level);
             (head_from_world * direction).extend(0.0)
         };
-        let key = towards(&KEY);
+        let key = towards(key_lamp);
         let (eye, perspective) = camera.eye_in_head();
         let reach = extent.radius + extent.margin + (camera.world_from_head() * extent.centre - camera.target).length();
         let pixel = camera.height_at_target() / height;
@@ -84,14 +119,29 @@ impl Globals {
             shadow_from_head: shadow_from_head(key.truncate(), extent),
             eye: eye.extend(perspective),
             key,
-            fill: towards(&FILL),
-            rim: towards(&RIM),
+            fill: towards(fill),
+            rim: towards(rim),
             up: (head_from_world * Vec3::Y).extend(0.0),
             background_top: background[0],
             background_bottom: background[1],
             measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, skin_opacity),
             viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
-            coat: Vec4::ZERO,
+            coat: Vec4::new(0.0, f32::from(preset.stuff() as u8), *exposure, 0.0),
+            key_light: key_lamp.light.extend(0.0),
+            fill_light: fill.light.extend(0.0),
+            rim_light: rim.light.extend(0.0),
+            zenith: sky.zenith.extend(0.0),
+            horizon: sky.horizon.extend(0.0),
+            ground: sky.ground.extend(0.0),
+            gathered: sky.gathered().map(|light| light.extend(0.0)),
+            eyes: Default::default(),
+        }
+    }
+
+    /// Takes what is to be known of the eyes: the left one and the right.
+    pub(super) fn set_eyes(&mut self, eyes: &[Eyeball]) {
+        for (block, eyeball) in self.eyes.iter_mut().zip(eyes) {
+            *block = EyeBlock::of(eyeball);
         }
     }
 }
@@ -131,7 +181,7 @@ mod tests {
             let mut camera = Camera::at(view, None, Lens::default());
             camera.elevation = camera.elevation.min(0.5);
             let extent = Extent { centre: Vec3::ZERO, radius: 0.1, margin: 0.0 };
-            let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2], 1.0);
+            let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2], 1.0, Preset::Studio);
             let key = camera.world_from_head() * globals.key.truncate();
             let [right, up, _] = camera.axes_in_world();
             assert!(key.dot(right) < -0.2 && key.dot(up) > 0.1, "{view:?}");

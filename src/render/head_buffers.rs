@@ -11,7 +11,7 @@ pub(super) struct Run {
     pub(super) count: u32,
 }
 
-/// Five vertex buffers in the order of the frame's parts, and one index buffer that counts through all of them.
+/// Six vertex buffers in the order of the frame's parts, and one index buffer that counts through all of them.
 #[derive(Debug)]
 pub(super) struct HeadBuffers {
     pub(super) positions: wgpu::Buffer,
@@ -19,6 +19,7 @@ pub(super) struct HeadBuffers {
     pub(super) flow: wgpu::Buffer,
     pub(super) colours: wgpu::Buffer,
     pub(super) surface: wgpu::Buffer,
+    pub(super) rest: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) runs: Vec<Run>,
     /// Of the last frame; none before the first.
@@ -51,6 +52,7 @@ impl HeadBuffers {
             flow: values("flow"),
             colours: values("colours"),
             surface: values("surface"),
+            rest: values("rest"),
             indices: buffer(device, "indices", n_indices * size_of::<u32>(), wgpu::BufferUsages::INDEX | storage),
             runs: Vec::new(),
             revisions: None,
@@ -71,6 +73,7 @@ impl HeadBuffers {
             let (indices, runs) = joined_indices(frame);
             queue.write_buffer(&self.indices, 0, bytemuck::cast_slice(&indices));
             self.runs = runs;
+            write_parts(queue, &self.rest, frame, 0, |p| p.rest);
         }
         let shape_changed = old.is_none_or(|old| old.shape != new.shape) || self.skin != skin;
         if shape_changed {

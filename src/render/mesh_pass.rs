@@ -7,7 +7,7 @@ use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
 
 /// Ways of shading, one pipeline each: the numbers of `mesh.wgsl`.
-const KINDS: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+const KINDS: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 /// How much work a pixel is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,12 +29,11 @@ fn kind(material: Material) -> u32 {
         Material::Sclera | Material::Iris | Material::Pupil => 4,
         Material::Cap => 5,
         Material::Bone => 6,
-        Material::Tooth
-        | Material::Gum
-        | Material::Tongue
-        | Material::ThirdEyelid
-        | Material::Tears
-        | Material::Whisker => 7,
+        Material::Tooth => 7,
+        Material::Gum | Material::ThirdEyelid => 8,
+        Material::Tongue => 9,
+        Material::Tears => 10,
+        Material::Whisker => 11,
     }
 }
 
@@ -109,7 +108,7 @@ impl MeshPass {
     /// Draws every run; the globals are bound as group 0. Skin that is seen through comes last.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers, clear_skin: bool) {
         pass.set_bind_group(1, &self.bindings, &[]);
-        let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface];
+        let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface, &head.rest];
         for (slot, buffer) in (0..).zip(values) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
@@ -134,12 +133,13 @@ fn pipeline(
     let draft = f64::from(u8::from(quality == Quality::Draft));
     let seen_through = f64::from(u8::from(clear));
     let constants = [("kind", f64::from(kind)), ("draft", draft), ("seen_through", seen_through)];
-    let attributes: [[wgpu::VertexAttribute; 1]; 5] = [
+    let attributes: [[wgpu::VertexAttribute; 1]; 6] = [
         wgpu::vertex_attr_array![0 => Float32x3],
         wgpu::vertex_attr_array![1 => Float32x3],
         wgpu::vertex_attr_array![2 => Float32x3],
         wgpu::vertex_attr_array![3 => Float32x3],
         wgpu::vertex_attr_array![4 => Float32x3],
+        wgpu::vertex_attr_array![5 => Float32x3],
     ];
     let buffers = attributes.each_ref().map(|attributes| {
         Some(wgpu::VertexBufferLayout { array_stride: 12, step_mode: wgpu::VertexStepMode::Vertex, attributes })

@@ -4,6 +4,7 @@ use super::gpu::Gpu;
 use super::mesh_pass::Quality;
 use super::painter::{Drawing, Painter};
 use super::picture::Picture;
+use super::samples::Samples;
 use super::shader_source::{ShaderError, ShaderSources};
 use super::targets::{COLOUR, Targets};
 use crate::frame::Frame;
@@ -18,6 +19,21 @@ pub enum DrawError {
         /// Asked for.
         width: u32,
         /// Asked for.
+        height: u32,
+        /// The longest side this device can draw.
+        most: u32,
+    },
+    /// More samples than the device can draw of so large a picture.
+    #[error(
+        "{samples} samples a pixel need {width} by {height} pixels, and each side must be at most {most} here: ask for \
+         fewer samples or a smaller picture"
+    )]
+    Samples {
+        /// Asked for.
+        samples: u32,
+        /// Of what would be drawn.
+        width: u32,
+        /// Of what would be drawn.
         height: u32,
         /// The longest side this device can draw.
         most: u32,
@@ -64,18 +80,24 @@ impl Offscreen {
 
     /// Draws one frame of a head. `size`: width and height, pixels.
     ///
-    /// Where the device allows, the picture is drawn at twice the size and halved: hair is finer than a pixel.
+    /// Where the device cannot draw so many samples as a picture has unless somebody asks for others, it has fewer.
     pub fn draw(&mut self, frame: &Frame<'_>, drawing: &Drawing, size: [u32; 2]) -> Result<Picture, DrawError> {
         let most = self.gpu.device.limits().max_texture_dimension_2d;
         let [width, height] = size;
         if width.min(height) == 0 || width.max(height) > most {
             return Err(DrawError::Size { width, height, most });
         }
-        let doubled = width.max(height) * 2 <= most;
-        let factor = if doubled { 2 } else { 1 };
-        let drawing = Drawing { pixels_per_point: drawing.pixels_per_point * factor as f32, ..*drawing };
-        let large = self.draw_once(frame, &drawing, [width * factor, height * factor])?;
-        Ok(if doubled { large.halved() } else { large })
+        let mut side = drawing.samples.side();
+        if width.max(height).saturating_mul(side) > most {
+            if drawing.samples != Samples::default() {
+                let (width, height) = (width.saturating_mul(side), height.saturating_mul(side));
+                return Err(DrawError::Samples { samples: drawing.samples.count(), width, height, most });
+            }
+            side = Samples::FEWEST.side();
+        }
+        let drawing = Drawing { pixels_per_point: drawing.pixels_per_point * side as f32, ..*drawing };
+        let large = self.draw_once(frame, &drawing, [width * side, height * side])?;
+        Ok(if side > 1 { large.reduced(side) } else { large })
     }
 
     fn draw_once(&mut self, frame: &Frame<'_>, drawing: &Drawing, size: [u32; 2]) -> Result<Picture, DrawError> {

@@ -5,6 +5,8 @@ use super::globals::{Extent, Globals};
 use super::ground_pass::{Background, GroundPass};
 use super::head_buffers::{HeadBuffers, SkinBy, buffer};
 use super::mesh_pass::{MeshPass, Quality};
+use super::preset::Preset;
+use super::samples::Samples;
 use super::shader_source::{ShaderError, ShaderSources};
 use super::shadow_pass::{self, ShadowPass};
 use super::strand_pass::{self, StrandPass};
@@ -36,6 +38,8 @@ pub struct Drawing {
     pub camera: Camera,
     /// What of the head.
     pub shading: Shading,
+    /// In which light, and as what.
+    pub preset: Preset,
     /// In front of what.
     pub background: Background,
     /// The lights turned about the vertical, radians; 0 leaves the key light at the upper left of the picture.
@@ -46,21 +50,25 @@ pub struct Drawing {
     pub skin_opacity: f32,
     /// How many strands of hair at most, of those that the frame has; none where the skin is seen through.
     pub n_strands: u32,
+    /// Of each pixel, where the picture is drawn [offscreen](super::Offscreen); a window takes the fewest.
+    pub samples: Samples,
     /// Pixels per unit of line width: 1, or the window's scale factor.
     pub pixels_per_point: f32,
 }
 
 impl Drawing {
-    /// A shaded head before the default ground.
+    /// A shaded head in the studio, before its ground.
     pub fn new(camera: Camera) -> Self {
         Self {
             camera,
             shading: Shading::Shaded,
+            preset: Preset::default(),
             background: Background::default(),
             light_turn: 0.0,
             on_card: false,
             skin_opacity: 1.0,
             n_strands: 0,
+            samples: Samples::default(),
             pixels_per_point: 1.0,
         }
     }
@@ -224,7 +232,9 @@ impl Painter {
             shadow_pass::TEXELS,
             edges,
             drawing.skin_opacity,
+            drawing.preset,
         );
+        globals.set_eyes(frame.eyes);
         globals.coat.x = hair.map_or(0.0, |_| strand_pass::cover(drawing.n_strands));
         queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
 

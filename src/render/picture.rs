@@ -28,22 +28,27 @@ impl Picture {
         }
     }
 
-    /// Half as wide and high, each pixel the mean of four; an odd last row or column is dropped.
-    pub fn halved(&self) -> Self {
-        let (width, height) = (self.width / 2, self.height / 2);
+    /// So many times narrower and lower, each pixel the mean of a square of `side` by `side` (at least 1); what is left
+    /// over at the last row and column is dropped.
+    pub fn reduced(&self, side: u32) -> Self {
+        let (width, height) = (self.width / side, self.height / side);
+        let (side, stride) = (side as usize, self.width as usize);
+        let n = (side * side) as u32;
         let mut rgba = Vec::with_capacity(width as usize * height as usize * 4);
-        let stride = self.width as usize * 4;
         for y in 0..height as usize {
             for x in 0..width as usize {
-                let at = 2 * y * stride + 8 * x;
-                let block = [at, at + 4, at + stride, at + stride + 4];
-                let alpha: u32 = block.iter().map(|&i| u32::from(self.rgba[i + 3])).sum();
-                for channel in 0..3 {
-                    let sum: u32 =
-                        block.iter().map(|&i| u32::from(self.rgba[i + channel]) * u32::from(self.rgba[i + 3])).sum();
-                    rgba.push((sum + alpha / 2).checked_div(alpha).unwrap_or(0) as u8);
+                let mut sums = [0; 3];
+                let mut alpha = 0;
+                for row in y * side..(y + 1) * side {
+                    let block = &self.rgba[4 * (row * stride + x * side)..][..4 * side];
+                    for pixel in block.as_chunks::<4>().0 {
+                        let [colour @ .., a] = pixel.map(u32::from);
+                        (0..3).for_each(|i| sums[i] += colour[i] * a);
+                        alpha += a;
+                    }
                 }
-                rgba.push(((alpha + 2) / 4) as u8);
+                rgba.extend(sums.map(|sum| (sum + alpha / 2).checked_div(alpha).unwrap_or(0) as u8));
+                rgba.push(((alpha + n / 2) / n) as u8);
             }
         }
         Self { width, height, rgba }
@@ -75,8 +80,8 @@ mod tests {
     }
 
     #[test]
-    fn halving_weighs_colours_by_their_alpha() {
+    fn a_smaller_picture_weighs_colours_without_their_alpha() {
         let picture = Picture { width: 2, height: 2, rgba: [[200, 0, 0, 255], [0; 4], [0; 4], [0; 4]].concat() };
-        assert_eq!(picture.halved().rgba, [200, 0, 0, 64]);
+        assert_eq!(picture.reduced(2).rgba, [200, 0, 0, 64]);
     }
 }

@@ -8,6 +8,8 @@ use super::ground_pass::Background;
 use super::offscreen::{DrawError, Offscreen};
 use super::painter::{Drawing, Shading};
 use super::picture::Picture;
+use super::preset::Preset;
+use super::samples::Samples;
 use super::text;
 use crate::frame::Frame;
 
@@ -31,6 +33,10 @@ pub struct Sheet {
     pub shading: Shading,
     /// Strands of hair on a head at most: none unless it is set.
     pub n_strands: u32,
+    /// In which light, and as what: in the studio unless it is set.
+    pub preset: Preset,
+    /// Of each pixel: sixteen unless they are set.
+    pub samples: Samples,
     /// Heads beside each other, at least 1: 1 unless it is set.
     pub heads_across: u32,
     distance: f32,
@@ -58,6 +64,8 @@ impl Sheet {
             skin_opacity: 1.0,
             shading: Shading::Shaded,
             n_strands: 0,
+            preset: Preset::default(),
+            samples: Samples::default(),
             heads_across: 1,
             distance: 0.0,
             rows: Vec::new(),
@@ -92,8 +100,9 @@ impl Sheet {
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let Self { background, skin_opacity, shading, n_strands, .. } = *self;
-            let drawing = Drawing { background, skin_opacity, shading, n_strands, ..Drawing::new(camera) };
+            let Self { background, skin_opacity, shading, n_strands, preset, samples, .. } = *self;
+            let drawing =
+                Drawing { background, skin_opacity, shading, n_strands, preset, samples, ..Drawing::new(camera) };
             cells.push(offscreen.draw(frame, &drawing, self.cell)?);
         }
         self.rows.push((name.to_owned(), cells));

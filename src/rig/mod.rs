@@ -150,6 +150,20 @@ impl Rig {
         &self.half
     }
 
+    /// Control positions of the base head, in its proportions' frame and head units, which are centimetres on the cranium
+    /// that they are relative to.
+    pub fn base(&self) -> Vec<Vec3> {
+        let half: Vec<Vec3> = self.half.base.iter().map(|&p| Vec3::from(p)).collect();
+        let mut whole = vec![Vec3::ZERO; self.mesh.n_vertices()];
+        self.half.unfold(&half, &mut whole);
+        whole
+    }
+
+    /// The vertex of the whole mesh that is the mirror image of one of the half.
+    pub fn image(&self, v: usize) -> usize {
+        self.images[v] as usize
+    }
+
     /// The constant part of the deformation.
     pub fn plan(&self) -> &DeformPlan {
         &self.plan

@@ -84,6 +84,7 @@ impl StandIn {
             colours: &p.colours,
             surface: &p.surface,
             flow: &p.flow,
+            rest: &p.positions,
             uv: None,
         });
         Frame {
@@ -92,6 +93,7 @@ impl StandIn {
             control_indices: &self.control_indices,
             plan: None,
             whiskers: &[],
+            eyes: &[],
             coat: None,
             revisions: self.revisions,
         }

@@ -2,7 +2,7 @@
 
 use crate::app::state::{EditorState, MOST_LEVEL};
 use crate::coat;
-use crate::render::{Lens, Shading, View};
+use crate::render::{Lens, Preset, Shading, View};
 
 /// Shading, level, named views, lens.
 pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
@@ -52,6 +52,7 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         ui.checkbox(&mut layers.mouth, "mouth").on_hover_text("Gums, palate, floor of the mouth");
         ui.checkbox(&mut layers.tongue, "tongue").on_hover_text("Tongue");
         ui.separator();
+        preset(state, ui);
         hair(state, ui);
         ui.separator();
         let taken = ui.selectable_label(state.measures.is_open, "Measurements");
@@ -62,6 +63,21 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             state.shows_keys = !state.shows_keys;
         }
     });
+}
+
+/// In which light, and as what.
+fn preset(state: &mut EditorState, ui: &mut egui::Ui) {
+    let label = ui.label("Preset");
+    let mut chosen = state.preset();
+    let choice = egui::ComboBox::from_id_salt("preset").selected_text(chosen.name()).width(80.0).show_ui(ui, |ui| {
+        for preset in Preset::ALL {
+            ui.selectable_value(&mut chosen, preset, preset.name()).on_hover_text(preset.about());
+        }
+    });
+    choice.response.labelled_by(label.id).on_hover_text("Light, ground and what the head is made of");
+    if chosen != state.preset() {
+        state.set_preset(chosen);
+    }
 }
 
 /// How many strands of hair.
