@@ -130,3 +130,27 @@ fn white(rng: &mut Rng, markings: &mut Vec<Marking>) {
         _ => {}
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_random_coat_is_always_the_same_or_not_what_genes_allow() {
+        let coat = |seed| random_pattern(&mut Rng::new(seed));
+        let mut kinds = Vec::new();
+        for seed in 0..300 {
+            let Pattern { base, markings, .. } = coat(seed);
+            assert_eq!(coat(seed).markings, markings);
+            let has = |kind| markings.iter().any(|m| m.kind == kind);
+            // A mask needs phaeomelanin to be seen on, and stripes need fawn.
+            assert!(!has(MarkingKind::Mask) || matches!(base, Paint::Phaeomelanin(_)), "{markings:?}");
+            assert!(!(has(MarkingKind::Brindle) && has(MarkingKind::TanPoints)), "{markings:?}");
+            assert!(!(has(MarkingKind::Merle) && base == Paint::Eumelanin), "{markings:?}");
+            kinds.extend(markings.iter().map(|m| m.kind));
+        }
+        for kind in [MarkingKind::Mask, MarkingKind::Merle, MarkingKind::Brindle, MarkingKind::Piebald] {
+            assert!(kinds.iter().filter(|k| **k == kind).count() > 5, "{}", kind.name());
+        }
+    }
+}
