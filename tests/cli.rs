@@ -374,13 +374,34 @@ fn lists_are_for_people_and_as_json_for_programs() {
     let lines = done(&["list", "breeds"]).stdout;
     for breed in &breeds {
         let (id, label) = (breed["id"].as_str().unwrap(), breed["label"].as_str().unwrap());
-        assert!(lines.lines().any(|l| l.starts_with(id) && l.ends_with(label)));
+        let coats: Vec<&str> = breed["coats"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        let end = if coats.is_empty() { label.to_owned() } else { format!("{label} ({})", coats.join(", ")) };
+        assert!(lines.lines().any(|l| l.starts_with(id) && l.ends_with(&end)), "{id}");
     }
     let lines = done(&["list", "parameters"]).stdout;
     for parameter in parameters() {
         assert!(parameter["label"].is_string() && parameter["unit"].is_string() && parameter["default"].is_number());
         assert!(lines.contains(parameter["id"].as_str().unwrap()));
     }
+}
+
+#[test]
+fn a_coat_is_put_on_that_the_breed_does_not_have() {
+    let folder = folder();
+    let glb = |args: &[&str]| {
+        let out = folder.path().join("dog.glb");
+        done(&[&["export", "--level", "1", "-o", text(&out)], args].concat());
+        std::fs::read(&out).unwrap()
+    };
+    let yellow = glb(&["--breed", "labrador"]);
+    assert!(yellow == glb(&["--breed", "labrador", "--coat", "yellow"]), "the first coat is another one");
+    let black = glb(&["--breed", "labrador", "--coat", "black"]);
+    assert!(yellow != black, "the coat is not seen");
+    assert!(black == glb(&["--breed", "labrador:black"]), "two ways to a coat differ");
+    let names = ["labrador has no coat 'blak' (did you mean black?)", "yellow, black, chocolate"];
+    refused(&["hash", "--breed", "labrador", "--coat", "blak"], 2, &names);
+    refused(&["hash", "--breed", "labrador:blak"], 2, &names);
+    refused(&["hash", "--breed", "rottweiler", "--coat", "red"], 2, &["rottweiler has no coat 'red'; it has only one"]);
 }
 
 // ---- check and broken files ----

@@ -1,5 +1,5 @@
-//! `docs/parameters.md` says what `rigs/anatomy.ron` says, `docs/breeds.md` what `rigs/breeds` says; `UPDATE_DOCS=1` rewrites
-//! them. No page has a place left open.
+//! `docs/parameters.md` says what `rigs/anatomy.ron` says, `docs/breeds.md` what `rigs/breeds` says, `docs/markings.md` which
+//! markings there are; `UPDATE_DOCS=1` rewrites them. No page has a place left open.
 #![cfg(feature = "head")]
 
 #[path = "support/known_breeds.rs"]
@@ -8,7 +8,7 @@ mod known_breeds;
 mod settings;
 
 use known_breeds::{LIVE_AND_BONE, is_class, live_ratio};
-use londra::anatomy::{ParamSpec, ParamTable, Reference, Status, Unit};
+use londra::anatomy::{MarkingField, MarkingKind, ParamSpec, ParamTable, Reference, Region, Status, Unit};
 use settings::World;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -93,6 +93,35 @@ fn keep(page: &str, made: &str, source: &str) {
 fn manual_of_parameters_is_stale() {
     let table = ParamTable::embedded().unwrap_or_else(|e| panic!("{e}"));
     keep("docs/parameters.md", &text(&table), "rigs/anatomy.ron");
+}
+
+// ---- markings ----
+
+fn markings_text() -> String {
+    let mut out = String::from(
+        "# Markings\n\n\
+         <!-- Written from src/anatomy/marking.rs by `UPDATE_DOCS=1 cargo test --test docs`. -->\n\n\
+         Every kind has `colour`, which must be there, and `amount`, 0 to 1 and 1 without it: `Mask(colour: Eumelanin, extent: 0.6)`.\n\
+         [The coat](coat.md) tells where they stand in a breed's file.\n",
+    );
+    for kind in MarkingKind::ALL {
+        let _ = write!(out, "\n## {}\n\n{}\n\n", kind.name(), kind.tells());
+        if *kind == MarkingKind::Patch {
+            let regions: Vec<String> = Region::ALL.iter().map(|r| format!("`{}`", r.name())).collect();
+            let _ = writeln!(out, "`regions` must be there, a list of {}.\n", regions.join(", "));
+        }
+        out.push_str("| Field | Range | Without it | What it does |\n| --- | --- | --- | --- |\n");
+        for field in kind.fields() {
+            let MarkingField { name, min, max, default, tells } = field;
+            let _ = writeln!(out, "| `{name}` | {min} to {max} | {default} | {tells} |");
+        }
+    }
+    out
+}
+
+#[test]
+fn manual_of_markings_is_stale() {
+    keep("docs/markings.md", &markings_text(), "src/anatomy/marking.rs");
 }
 
 // ---- breeds ----

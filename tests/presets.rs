@@ -142,7 +142,7 @@ fn clay_shows_the_colours_of_the_coat() {
     let (mut heads, mut offscreen) = (Heads::new(), offscreen());
     let breed = heads.breed("beagle");
     let mut dyed = breed.clone();
-    dyed.look.base = glam::Vec3::new(0.0, 0.6, 0.1);
+    dyed.look.pattern = londra::anatomy::Pattern::plain(glam::Vec3::new(0.0, 0.6, 0.1));
     dyed.look.iris = glam::Vec3::X;
     dyed.look.nose = glam::Vec3::ONE;
     let before = heads.picture(&mut offscreen, &breed, Preset::Clay, |_| ());

@@ -176,6 +176,23 @@ fn a_mix_of_two_breeds_is_half_way_between() {
 }
 
 #[test]
+fn a_coat_of_the_list_is_not_worn_saved_or_undone() {
+    let mut harness = harness();
+    let first = harness.state().breed().clone();
+    let list = harness.get_by_role_and_label(Role::ComboBox, "Coat");
+    assert_eq!(list.value().as_deref(), Some("yellow"));
+    harness.state_mut().set_coat("chocolate");
+    harness.run();
+    assert_eq!(harness.state().breed().worn(), Some("chocolate"));
+    assert_eq!(harness.get_by_role_and_label(Role::ComboBox, "Coat").value().as_deref(), Some("chocolate"));
+    assert!(harness.state().document().is_changed());
+    assert_eq!(harness.state().breed().values, first.values);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run();
+    assert_eq!(*harness.state().breed(), first);
+}
+
+#[test]
 fn choosing_a_breed_can_be_undone() {
     let mut harness = harness();
     let first = harness.state().breed().clone();

@@ -54,15 +54,15 @@ pub(super) fn read(fields: &Fields<'_>, version: u32, problems: &mut Problems) -
         return Default::default();
     };
     let mut worn = first.look.clone();
-    if let Some(node) = fields.get("wears") {
-        if let Some(name) = problems.text(node, "wears") {
-            match varieties.iter().find(|v| v.name == name) {
-                Some(variety) => worn = variety.look.clone(),
-                None => {
-                    let coats: Vec<String> = varieties.iter().map(|v| v.name.clone()).collect();
-                    let near = near(&name, coats.iter().map(String::as_str));
-                    problems.push(node.place, ProblemKind::UnknownVariety { name, nearest: near, coats });
-                }
+    if let Some(node) = fields.get("wears")
+        && let Some(name) = problems.text(node, "wears")
+    {
+        match varieties.iter().find(|v| v.name == name) {
+            Some(variety) => worn = variety.look.clone(),
+            None => {
+                let coats: Vec<String> = varieties.iter().map(|v| v.name.clone()).collect();
+                let near = near(&name, coats.iter().map(String::as_str));
+                problems.push(node.place, ProblemKind::UnknownVariety { name, nearest: near, coats });
             }
         }
     }

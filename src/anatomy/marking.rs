@@ -167,20 +167,20 @@ kinds! {
         ("size_mm", 1.0, 60.0, 12.0, "across"),
         ("density", 0.0, 1.0, 0.6, "how close together"),
         ("seed", 0.0, 9999.0, 1.0, "another number is another dog"),
-        ("soft_mm", 0.5, 60.0, 1.5, "width of the border"),
+        ("soft_mm", 0.5, 8.0, 1.5, "width of the border"),
     ];
     Ticking: "Flecks the size of a lentil.", [
         ("size_mm", 1.0, 60.0, 3.5, "across"),
         ("density", 0.0, 1.0, 0.5, "how close together"),
         ("seed", 0.0, 9999.0, 1.0, "another number is another dog"),
-        ("soft_mm", 0.5, 60.0, 1.0, "width of the border"),
+        ("soft_mm", 0.5, 8.0, 1.0, "width of the border"),
     ];
     Brindle: "Stripes across the hair.", [
-        ("spacing_mm", 3.0, 60.0, 11.0, "from stripe to stripe"),
-        ("width", 0.0, 1.0, 0.45, "part of that which a stripe has"),
-        ("breaks", 0.0, 1.0, 0.5, "how often stripes are interrupted"),
+        ("spacing_mm", 3.0, 60.0, 6.5, "from stripe to stripe"),
+        ("width", 0.0, 1.0, 0.5, "part of that which a stripe has"),
+        ("breaks", 0.0, 1.0, 0.6, "how often stripes are interrupted"),
         ("seed", 0.0, 9999.0, 1.0, "another number is another dog"),
-        ("soft_mm", 0.5, 60.0, 3.0, "width of the border"),
+        ("soft_mm", 0.5, 60.0, 5.0, "width of the border"),
     ];
     Merle: "Torn patches of full colour with half-tones, over a coat that is paler.", [
         ("size_mm", 4.0, 200.0, 30.0, "across"),

@@ -12,6 +12,7 @@ mod breed;
 mod coat_file;
 pub mod colour;
 mod file;
+mod genes;
 mod hair;
 pub mod library;
 mod litter;
@@ -32,6 +33,7 @@ mod space;
 mod table;
 
 pub use breed::{Breed, UnknownCoat};
+pub use genes::random_pattern;
 pub use hair::Hair;
 pub use litter::{INHERITED_WHOLE, cross};
 pub use load::load_breed;

@@ -8,7 +8,7 @@
 //! covariance is A·Aᵀ, so that m + A·g has exactly that mean and covariance where the n numbers g are independent normal
 //! deviates: nothing needs to be decomposed, and what no two breeds differ in never varies.
 
-use super::{Breed, Locks, ParamSpec, ParamTable, Unit};
+use super::{Breed, Hair, Locks, Look, ParamSpec, ParamTable, Unit, random_pattern};
 use crate::math::ops;
 use crate::math::rng::Rng;
 
@@ -72,17 +72,16 @@ impl Space {
         self.dog(table, &self.mean)
     }
 
-    /// A dog drawn from the covariance of the breeds, cut off at the ends of each range, in the coat of one of `coats`
-    /// (the default look where there is none). What `locks` name is `base`'s, bit for bit; the rest is drawn as it goes
+    /// A dog drawn from the covariance of the breeds, cut off at the ends of each range, with the hair of one of `coats`
+    /// (the default where there is none) in colours that genes allow. What `locks` name is `base`'s, bit for bit; the rest is drawn as it goes
     /// with that: a long ear that is kept asks for a head that goes with long ears.
     pub fn random(&self, table: &ParamTable, coats: &[Breed], base: &Breed, locks: &Locks, rng: &mut Rng) -> Breed {
         let mut deviates: Vec<f64> = (0..self.factor.first().map_or(0, Vec::len)).map(|_| rng.normal()).collect();
         self.condition(base, locks, &mut deviates, rng);
         let point: Vec<f64> = self.mean.iter().zip(&self.factor).map(|(m, row)| m + dot(row, &deviates)).collect();
         let mut dog = self.dog(table, &point);
-        if let Some(coat) = coats.get(rng.below(coats.len())) {
-            dog.look = coat.look.clone();
-        }
+        let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair);
+        dog.look = Look { hair, ..Look::of(random_pattern(rng)) };
         locks.hold(base, &mut dog);
         dog
     }

@@ -95,5 +95,6 @@ pub fn under_new_table(table: &ParamTable, breeds: &[Breed], state: &EditorState
     let id = |index: &usize| &state.table.specs[*index].id;
     let overrides = old.overrides.iter().filter_map(|(i, change)| Some((table.index_of(id(i))?, *change))).collect();
     let blend = old.blend.as_ref().and_then(partner);
-    Ok(Document { base, path: old.path.clone(), blend, overrides, label: old.label.clone() })
+    let (path, coat, label) = (old.path.clone(), old.coat.clone(), old.label.clone());
+    Ok(Document { base, path, blend, coat, overrides, label })
 }

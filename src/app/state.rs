@@ -41,6 +41,8 @@ pub struct Document {
     pub path: Option<PathBuf>,
     /// The breed mixed in.
     pub blend: Option<Blend>,
+    /// Which of the base's coats it wears, where it is another than the base does.
+    pub coat: Option<String>,
     /// By row of the table.
     pub overrides: BTreeMap<usize, Override>,
     /// The name it is saved under, where it is another than the base's.
@@ -50,14 +52,19 @@ pub struct Document {
 impl Document {
     /// A breed as it is.
     pub fn of(base: Breed, path: Option<PathBuf>) -> Self {
-        Self { base, path, blend: None, overrides: BTreeMap::new(), label: None }
+        Self { base, path, blend: None, coat: None, overrides: BTreeMap::new(), label: None }
     }
 
     /// The breed before measures were changed by hand.
     pub fn blended(&self, table: &ParamTable) -> Breed {
+        let mut base = self.base.clone();
+        if let Some(coat) = &self.coat {
+            // A reloaded file may not have it any more: then the dog wears the first again.
+            let _ = base.wear(coat);
+        }
         match &self.blend {
-            Some(Blend { partner, weight }) => Breed::blend(table, &[(&self.base, 1.0 - weight), (partner, *weight)]),
-            None => self.base.clone(),
+            Some(Blend { partner, weight }) => Breed::blend(table, &[(&base, 1.0 - weight), (partner, *weight)]),
+            None => base,
         }
     }
 
@@ -78,7 +85,10 @@ impl Document {
 
     /// Whether it differs from what the list or the file has.
     pub fn is_changed(&self) -> bool {
-        !self.overrides.is_empty() || self.label.is_some() || self.blend.as_ref().is_some_and(|b| b.weight > 0.0)
+        !self.overrides.is_empty()
+            || self.label.is_some()
+            || self.coat.is_some()
+            || self.blend.as_ref().is_some_and(|b| b.weight > 0.0)
     }
 }
 
@@ -365,6 +375,11 @@ impl EditorState {
                 blend.weight = weight.clamp(0.0, 1.0);
             }
         });
+    }
+
+    /// Puts on one of the breed's coats.
+    pub fn set_coat(&mut self, coat: &str) {
+        self.change(|d| d.coat = (d.base.worn() != Some(coat)).then(|| coat.to_owned()));
     }
 
     /// Gives it another name.

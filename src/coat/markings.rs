@@ -204,33 +204,40 @@ impl<'a> Spot<'a> {
         0.8 * coarse.x + 0.35 * middle.y + torn * (0.30 * middle.x + 0.35 * fine.x)
     }
 
-    /// Distance into the nearest of round spots, `size` across.
+    /// Distance into the nearest of round spots, `size` across; far outside where none is near.
     fn spots(&self, size: f32, density: f32, seed: u32) -> f32 {
         let p = self.site.place + (self.free - self.site.place) * 0.25;
         let mesh = size * (2.6 - 1.5 * density);
         let place = p / mesh;
-        let base = place.floor().as_ivec3();
+        // No spot is wider than half a cell beyond its own.
+        let reach = Vec3::splat(0.56);
+        let [from, to] = [place - reach, place + reach].map(|corner| corner.floor().as_ivec3());
         let mut inside = OUTSIDE;
-        for i in 0..27 {
-            let cell = base + glam::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-            let random = noise::cell(cell, seed);
-            let [has, radius] = [noise::cell(cell, seed ^ 0x1234).x, noise::cell(cell, seed ^ 0x4321).x];
-            if has < 0.35 + 0.6 * density {
-                let middle = cell.as_vec3() + random;
-                let radius = 0.5 * size * (0.55 + 0.6 * radius);
-                inside = inside.max(radius - (place - middle).length() * mesh);
+        for z in from.z..=to.z {
+            for y in from.y..=to.y {
+                for x in from.x..=to.x {
+                    let cell = glam::ivec3(x, y, z);
+                    let own = noise::cell(cell, seed ^ 0x1234);
+                    if own.x < 0.35 + 0.6 * density {
+                        let middle = cell.as_vec3() + noise::cell(cell, seed);
+                        let radius = 0.5 * size * (0.55 + 0.6 * own.y);
+                        inside = inside.max(radius - (place - middle).length() * mesh);
+                    }
+                }
             }
         }
         inside
     }
 
+    /// Stripes across the hair, each of its own strength, that branch and end.
     fn stripes(&self, spacing: f32, width: f32, breaks: f32, seed: u32) -> f32 {
         let p = self.free;
-        let warp = noise::smooth(p / 2.6, seed).x * 0.9 + noise::smooth(p / 1.1, seed ^ 0x99).x * 0.25;
+        let warp =
+            noise::smooth(p / (3.2 * spacing), seed).x * 1.3 + noise::smooth(p / (1.1 * spacing), seed ^ 0x99).x * 0.45;
         let phase = (0.85 * p.z + 0.45 * p.x.abs() + 0.25 * p.y) / spacing + warp;
         let wave = ops::cos(std::f32::consts::TAU * (phase - phase.floor()));
-        let gap = noise::smooth(p / (1.1 * spacing), seed ^ 0x33).x;
-        (wave - ops::cos(std::f32::consts::PI * width) - breaks * 1.6 * (gap + 0.1).max(0.0)) * 0.20 * spacing
+        let gap = noise::smooth(p / (1.6 * spacing), seed ^ 0x33).x;
+        (wave - ops::cos(std::f32::consts::PI * width) - breaks * 2.0 * (gap + 0.15)) * 0.20 * spacing
     }
 
     /// How much of a marking is here, 0 to 1.

@@ -1,5 +1,6 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
+mod dyes;
 mod eyeball;
 mod eyelids;
 mod layers;

@@ -4,6 +4,7 @@
 //! Lifetimes: the plan of a level until another is asked for; shape buffers written when the values changed; colours when
 //! the look did.
 
+use super::dyes::Dyes;
 use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
 use super::layers::Layers;
@@ -15,7 +16,7 @@ use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
-use crate::coat::{self, Chart, Coat, Colours, Root};
+use crate::coat::{self, Coat, Root};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
@@ -69,8 +70,7 @@ pub struct Pipeline {
     skeleton: Option<Skeleton>,
     /// Once mouth or tongue are asked for.
     mouth: Option<MouthParts>,
-    /// Of the skin's plan, once it has been painted.
-    chart: Option<Chart>,
+    dyes: Dyes,
     hair: HairValues,
     values: Vec<f32>,
     pose: Pose,
@@ -121,7 +121,7 @@ impl Pipeline {
             uv: false,
             skeleton: None,
             mouth: None,
-            chart: None,
+            dyes: Dyes::default(),
             hair: HairValues::default(),
             values: Vec::new(),
             pose: Pose::default(),
@@ -175,7 +175,7 @@ impl Pipeline {
         self.revisions.topology += 1;
         self.values.clear();
         self.look = None;
-        self.chart = None;
+        self.dyes.forget();
         self.root_hair();
         let wants_uv = std::mem::take(&mut self.uv);
         self.set_uv(wants_uv)
@@ -245,6 +245,7 @@ impl Pipeline {
     /// Makes the roots that are wanted on the skin of this level; they are painted with the next frame.
     fn root_hair(&mut self) {
         self.hair.roots.clear();
+        self.dyes.forget_hair();
         self.look = None;
         if self.hair.n_strands > 0 {
             let topology = &self.parts[0].topology;
@@ -370,11 +371,8 @@ impl Pipeline {
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_attribute(&self.plan, control_surface, &mut skin.surface);
         let HairValues { roots, colours: of_hair, control_growth, control_comb, growth, comb, .. } = &mut self.hair;
-        let chart = self.chart.get_or_insert_with(|| Chart::new(&self.rig, &self.plan));
-        let colours = Colours::new(look, &self.rig, &self.plan, chart);
-        colours.of_skin(self.threads, &mut skin.colours);
-        of_hair.resize(roots.len(), Vec3::ZERO);
-        colours.of_hair(roots, skin.topology.indices.as_chunks::<3>().0, self.threads, of_hair);
+        let hairs = (&roots[..], skin.topology.indices.as_chunks::<3>().0);
+        self.dyes.paint(&self.rig, &self.plan, look, hairs, self.threads, &mut skin.colours, of_hair);
         self.whiskers.paint(&skin.colours);
         cap.colours.fill(rim_colour(&self.plan, &skin.colours) * 0.35);
         // Two buffers that hold something else from here on.

@@ -1,6 +1,6 @@
-//! Which breed, and which other is mixed in.
+//! Which breed in which coat, and which other is mixed in.
 
-use crate::app::state::EditorState;
+use crate::app::state::{Document, EditorState};
 
 /// The list, the name, and the blend.
 pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
@@ -21,6 +21,12 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             state.choose(index);
         }
         ui.end_row();
+
+        if !state.document().base.varieties.is_empty() {
+            let label = ui.label("Coat");
+            coat(state, ui, label.id);
+            ui.end_row();
+        }
 
         let label = ui.label("Name");
         let mut name = state.breed().label.clone();
@@ -81,6 +87,25 @@ fn chance(state: &mut EditorState, ui: &mut egui::Ui) {
             }
         });
     });
+}
+
+/// The coats that the breed comes in.
+fn coat(state: &mut EditorState, ui: &mut egui::Ui, label: egui::Id) {
+    let Document { base, coat, .. } = state.document();
+    let worn = coat.as_deref().or(base.worn()).unwrap_or_default().to_owned();
+    let mut choice = None;
+    let list = egui::ComboBox::from_id_salt("coat").width(ui.available_width()).selected_text(worn.as_str());
+    let list = list.show_ui(ui, |ui| {
+        for variety in &base.varieties {
+            if ui.selectable_label(variety.name == worn, &variety.name).clicked() {
+                choice = Some(variety.name.clone());
+            }
+        }
+    });
+    list.response.labelled_by(label);
+    if let Some(coat) = choice {
+        state.set_coat(&coat);
+    }
 }
 
 fn partner(state: &mut EditorState, ui: &mut egui::Ui, label: egui::Id) {
