@@ -3,7 +3,7 @@
 CARGO ?= cargo
 TEST = $(CARGO) test --locked
 
-.PHONY: run test test-all setup bake heads coats atlas fmt-check lint doc help
+.PHONY: run test test-all setup bake heads gallery atlas fmt-check lint doc help
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/'
@@ -31,8 +31,8 @@ bake: ## rebuild the baked assets
 heads: ## redraw docs/heads.png: every breed in four views, at one scale
 	$(CARGO) run --release --locked -- sheet --breeds all --level 3 --columns 3 --hair off --size 1440x2880 -o docs/heads.png
 
-coats: ## redraw docs/coats.png: every breed in its coat
-	$(CARGO) run --release --locked -- sheet --breeds all --views portrait --fit --columns 8 --size 1200x1312 -o docs/coats.png
+gallery: ## redraw docs/gallery.png: every breed as clay, as skin and in its coat
+	$(CARGO) run --release --locked -- sheet --breeds all --views portrait --dress clay,skin,coat --fit --columns 4 --size 1320x1860 -o docs/gallery.png
 
 atlas: ## redraw docs/atlas_*.png: every measure low, middle and high
 	$(CARGO) run --release --locked -- atlas --split -o docs/atlas.png
