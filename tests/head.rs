@@ -579,7 +579,7 @@ const MOST_CROSSINGS: usize = 22;
 /// Leather that lies folded on itself at its root crosses itself there.
 const MOST_IN_EARS: usize = 32;
 /// And where lips, lining or nostrils lie on each other.
-const MOST_HIDDEN: usize = 32;
+const MOST_HIDDEN: usize = 40;
 
 #[test]
 fn a_breed_is_no_valid_head() {

@@ -4,7 +4,6 @@
 use super::{Pins, sin_cos};
 use crate::math::ops;
 use crate::rig::implicit::Layer;
-use crate::rig::proportions::Proportions;
 use glam::{Vec3, vec3};
 
 fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
@@ -36,11 +35,15 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
     side + (corner - side) * u + vec3(0.0, raise, 0.0)
 }
 
-/// How far the lower lip's margin lies inside the upper's, head units: everywhere, and how much more where an undershot
-/// jaw goes forwards below it, and before the corner.
-const INSIDE: [f32; 3] = [0.2, 0.1, 0.08];
-/// How far it stands above it: everywhere, over an undershot jaw, and before the corner, where both come together.
-const ABOVE: [f32; 3] = [0.08, 0.04, -0.06];
+/// How far the lower lip's margin lies inside the upper's, head units: everywhere, how much more for each unit that the jaw
+/// juts out below it, and before the corner. On the skin of level 2, which is not yet smooth there, it is half as far.
+const INSIDE: [f32; 3] = [0.2, 0.45, 0.08];
+/// How far it stands above it: everywhere, how much less for each unit that the jaw juts out, and before the corner, where
+/// both come together.
+const ABOVE: [f32; 3] = [0.08, 0.02, -0.06];
+/// How far below the upper lip's margin the jaw is asked for, from what depth under its skin on it juts out,
+/// and the most that counts, head units.
+const JUTS: [f32; 3] = [0.9, -0.3, 1.2];
 
 /// Out of the mouth at vertex `k` of the upper lip's edge (muzzle frame): horizontal, across the line of the lips.
 pub(super) fn outwards(edge: &[Vec3; 8], k: usize) -> Vec3 {
@@ -49,12 +52,15 @@ pub(super) fn outwards(edge: &[Vec3; 8], k: usize) -> Vec3 {
 }
 
 /// The lower lip's edge beside vertex `k` of the upper's (muzzle frame).
-fn lower(s: &Proportions, edge: &[Vec3; 8], k: usize) -> Vec3 {
+fn lower(pins: &Pins, edge: &[Vec3; 8], k: usize) -> Vec3 {
     let t = k as f32 / 7.0;
-    let under = smoothstep(-0.7, 0.1, s.jaw_len) * (1.0 - smoothstep(0.25, 0.75, t));
+    // Skin that goes forwards from a margin high up inside the upper lip would come through it.
+    let below = pins.shape.head_from_muzzle(edge[k] - Vec3::Y * JUTS[0]);
+    let juts = (-pins.surface.distance(below, Layer::Lower) - JUTS[1]).clamp(0.0, JUTS[2]);
+    let juts = juts * (1.0 - smoothstep(0.3, 0.86, t));
     let corner = smoothstep(0.7, 0.86, t);
-    let inside = INSIDE[0] + INSIDE[1] * under + INSIDE[2] * corner;
-    let above = ABOVE[0] + (ABOVE[1] - ABOVE[0]) * under + (ABOVE[2] - ABOVE[0]) * corner;
+    let inside = INSIDE[0] + INSIDE[1] * juts + INSIDE[2] * corner;
+    let above = ABOVE[0] - ABOVE[1] * juts + (ABOVE[2] - ABOVE[0]) * corner;
     let p = edge[k] - outwards(edge, k) * inside + Vec3::Y * above;
     p.with_x(p.x.max(0.0))
 }
@@ -72,6 +78,6 @@ pub(super) fn place(pins: &mut Pins) {
     }
     // The lower lip runs beside the upper one, just inside it and a little higher, so that nothing is seen between them.
     for k in 0..7 {
-        pins.set(pins.handles.l[3 + k][9], s.head_from_muzzle(lower(s, &edge, k)));
+        pins.set(pins.handles.l[3 + k][9], s.head_from_muzzle(lower(pins, &edge, k)));
     }
 }
