@@ -124,7 +124,7 @@ impl Section {
             let deep = if own.z < 0.0 { own.z / (1.0 - own.z * self.bend / 0.6) } else { own.z };
             let fixed = base.at[k] - base.middle;
             let turned = self.head(vec3(own.x, own.y, deep));
-            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 0.4, 1.0 - self.keep));
+            let target = self.centre + fixed.lerp(turned, smoothstep(0.0, 1.0, 1.0 - self.keep));
             p = p + (target - p) * (hold * self.keep);
         }
         p + self.push[place]
