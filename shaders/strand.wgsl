@@ -1,8 +1,8 @@
 // Hair as ribbons that face the camera, grown in the vertex stage out of the skin that is drawn.
 //
 // A strand is bound to a triangle; place, direction and length come from the values of its corners, so hair follows every
-// head without an upload; its colour is its own. Its tip fades by covering fewer samples of a pixel, which needs no order. What varies from
-// hair to hair comes from its seed, what varies from lock to lock from noise in the base head's.
+// head without an upload; its colour is its own. Its tip fades by covering fewer samples of a pixel, which needs no order.
+// What varies from hair to hair comes from its seed, what varies from lock to lock from noise in the base head's frame.
 
 struct Style {
     // Of the breed: curl, clump, lift, wire.

@@ -517,7 +517,7 @@ fn a_target_that_cannot_be_written_is_left_as_it_was() {
     export(folder.path(), &["is a folder"]);
     let good = folder.path().join("good.glb");
     std::fs::write(&good, "old").unwrap();
-    let broken = changed(&folder, "version: 1", "version: 9");
+    let broken = changed(&folder, "version: 2", "version: 9");
     refused(&["export", "--breed", text(&broken), "-o", text(&good)], 1, &["version is 9"]);
     assert_eq!(std::fs::read_to_string(&good).unwrap(), "old", "an error keeps the old file");
     assert_eq!(names_in(folder.path()), ["changed.ron", "good.glb", "pug.glb"]);

@@ -2,8 +2,7 @@
 #![cfg(feature = "head")]
 
 use londra::anatomy::{
-    Breed, LoadErrors, ParamTable, ProblemKind, QUANTITIES, Quantity, Region, Status, cross, library, load_breed,
-    save_breed,
+    Breed, LoadErrors, ParamTable, ProblemKind, QUANTITIES, Quantity, Status, cross, library, load_breed, save_breed,
 };
 use londra::math::rng::Rng;
 use londra::measure::Calliper;

@@ -1,9 +1,8 @@
 //! The colour of a coat at a place of the skin: a pure function of the place, the same bits everywhere.
 //!
-//! Every kind of marking is a signed distance in the frame of the base head, where the nose, the eyes, the lips and the
-//! ears lie at places that are known: [`lengths`](place) below. Before it is asked, the place is moved by slow noise, so
-//! that borders wander by some five millimetres, and by a little along the hair, so that they end in tufts. A hair
-//! decides for itself on which side of a soft border it stands.
+//! Every kind of marking is a signed distance in the frame of the base head, where nose, eyes, lips and ears lie at known
+//! places. Before it is asked, the place is moved by slow noise, so that borders wander by some five millimetres, and by a
+//! little along the hair, so that they end in tufts. A hair decides for itself on which side of a soft border it stands.
 
 use super::chart::Site;
 use super::noise;
