@@ -1,8 +1,8 @@
 // Hair as ribbons that face the camera, grown in the vertex stage out of the skin that is drawn.
 //
-// A strand is bound to a triangle; place, direction, length and colour come from the values of its corners, so hair follows
-// every head without an upload. Its tip fades by covering fewer samples of a pixel, which needs no order. What varies from
-// hair to hair comes from its seed, what varies from lock to lock from noise in the head's frame.
+// A strand is bound to a triangle; place, direction and length come from the values of its corners, so hair follows every
+// head without an upload; its colour is its own. Its tip fades by covering fewer samples of a pixel, which needs no order. What varies from
+// hair to hair comes from its seed, what varies from lock to lock from noise in the base head's.
 
 struct Style {
     // Of the breed: curl, clump, lift, wire.
@@ -16,6 +16,10 @@ struct Root {
     second: f32,
     third: f32,
     seed: u32,
+    // On the base head, head units: what is bound to it stays where it is whatever the shape does.
+    x: f32,
+    y: f32,
+    z: f32,
 }
 
 @group(1) @binding(0) var<uniform> style: Style;
@@ -25,6 +29,7 @@ struct Root {
 @group(1) @binding(3) var<storage, read> positions: array<f32>;
 @group(1) @binding(4) var<storage, read> normals: array<f32>;
 @group(1) @binding(5) var<storage, read> flow: array<f32>;
+// Three numbers a strand.
 @group(1) @binding(6) var<storage, read> colours: array<f32>;
 // Length (m), standing off, hidden.
 @group(1) @binding(7) var<storage, read> growth: array<f32>;
@@ -39,6 +44,8 @@ struct Root {
 const POINTS: u32 = 6u;
 const BATCH: u32 = 128u;
 
+// Metres of a head unit on the default head.
+const HEAD_UNIT: f32 = 0.01;
 // Hair shorter than this is none, metres.
 const SHORTEST: f32 = 0.0004;
 
@@ -236,17 +243,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
         vec3<f32>(comb[c], comb[c + 1u], comb[c + 2u]),
         root,
     );
-    let base = max(mixed(
-        vec3<f32>(colours[a], colours[a + 1u], colours[a + 2u]),
-        vec3<f32>(colours[b], colours[b + 1u], colours[b + 2u]),
-        vec3<f32>(colours[c], colours[c + 1u], colours[c + 2u]),
-        root,
-    ), vec3<f32>(0.0));
+    let base = vec3<f32>(colours[number * 3u], colours[number * 3u + 1u], colours[number * 3u + 2u]);
 
-    // Locks of half a centimetre, waves of three, mottles between.
-    let lock = noise(skin, 0.005);
-    let wave = noise(skin, 0.030);
-    let mottle = noise(skin + 0.37, 0.014);
+    // Locks of half a centimetre on the default head, waves of three, mottles between.
+    let place = vec3<f32>(root.x, root.y, root.z) * HEAD_UNIT;
+    let lock = noise(place, 0.005);
+    let wave = noise(place, 0.030);
+    let mottle = noise(place + 0.37, 0.014);
     let signed = random * 2.0 - 1.0;
     let clump = 0.6 + 1.2 * style.nature.y;
     let wire = style.nature.w;

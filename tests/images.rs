@@ -11,7 +11,7 @@ mod stand_in;
 
 use difference::{Difference, difference};
 use glam::Vec3;
-use londra::anatomy::{Breed, ParamTable, library};
+use londra::anatomy::{Breed, ParamTable, Pattern, library};
 use londra::frame::Pipeline;
 use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, View};
 use londra::rig::Rig;
@@ -169,7 +169,7 @@ fn the_threshold_sees_a_small_change_of_shape_colour_and_light() {
     let index = heads.table.index_of("facial_length_mm").unwrap();
     longer.set_value(&heads.table, index, breed.values[index] + 0.004);
     let mut paler = breed.clone();
-    paler.look.base *= 1.15;
+    paler.look.pattern = Pattern::plain(paler.look.base_colour() * 1.15);
     let seen = |picture: &Picture| {
         let d = difference(&before, picture);
         d.mean > ALLOWED.mean || d.percentile_99 > ALLOWED.percentile_99

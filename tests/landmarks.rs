@@ -8,7 +8,7 @@
 mod settings;
 
 use glam::Vec3;
-use londra::anatomy::{Breed, Look, Mark, Region};
+use londra::anatomy::{Breed, Look, Marking, Pattern, Region};
 use londra::frame::Pipeline;
 use londra::measure::{Eyepoint, Landmark, Side, Sight, skin_landmarks};
 use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, View};
@@ -187,14 +187,15 @@ fn a_picture_shows_a_landmark_elsewhere() {
         let all = landmarks(&world, &mut pipeline, &breed);
         let Seen { camera, sight, eye } = look(&mut pipeline, &breed, view, Lens::default());
         let drawing = Drawing { background: Background::Plain([0; 3]), ..Drawing::new(camera) };
-        let black = Look { base: Vec3::ZERO, marks: Vec::new(), fur: 0.0, ..breed.look.clone() };
-        let mut draw = |marks: Vec<Mark>| {
-            breed.look = Look { marks, ..black.clone() };
+        let black = Look { pattern: Pattern::plain(Vec3::ZERO), fur: 0.0, ..breed.look.clone() };
+        let mut draw = |markings: Vec<Marking>| {
+            breed.look = black.clone();
+            breed.look.pattern.markings = markings;
             offscreen.draw(&pipeline.update(&breed), &drawing, [SIZE; 2]).unwrap_or_else(|e| panic!("{e}"))
         };
         let before = draw(Vec::new());
         for region in painted {
-            let after = draw(vec![Mark { regions: vec![region], colour: Vec3::ONE, amount: 1.0 }]);
+            let after = draw(vec![Marking::patch(vec![region], Vec3::ONE, 1.0)]);
             let regions = &world.rig.half().regions;
             for landmark in &all {
                 let Some(Place::Vertex(v)) = places.get(&landmark.id) else { continue };

@@ -1,6 +1,6 @@
 //! A breed: a value for every measure, and a look.
 
-use super::{Look, ParamTable, Reference};
+use super::{Look, ParamTable, Reference, Variety, nearest};
 
 /// Who the dog is. Complete and in range: made by [`super::load_breed`], [`Breed::defaults`] or [`Breed::blend`], changed by
 /// [`Breed::set_value`] and [`Breed::unset`].
@@ -20,6 +20,27 @@ pub struct Breed {
     pub set: Vec<bool>,
     /// Colours.
     pub look: Look,
+    /// The coats that the breed comes in, in the order of its file; none where it has only one. Blends and descendants
+    /// have none.
+    pub varieties: Vec<Variety>,
+}
+
+/// A word that names no coat of a breed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{id} has no coat '{word}'{}; {}",
+    if nearest.is_empty() { String::new() } else { format!(" (did you mean {}?)", nearest.join(" or ")) },
+    if coats.is_empty() { "it has only one".to_owned() } else { format!("it comes in {}", coats.join(", ")) }
+)]
+pub struct UnknownCoat {
+    /// Whose coat.
+    pub id: String,
+    /// What was asked for.
+    pub word: String,
+    /// Coats with similar names.
+    pub nearest: Vec<String>,
+    /// All coats.
+    pub coats: Vec<String>,
 }
 
 impl Breed {
@@ -28,7 +49,16 @@ impl Breed {
         let values = table.specs.iter().map(super::ParamSpec::default_si).collect();
         let (id, label) = ("unnamed".to_owned(), "Unnamed".to_owned());
         let set = vec![false; table.specs.len()];
-        Self { id, label, fci_group: None, references: Vec::new(), values, set, look: Look::default() }
+        Self {
+            id,
+            label,
+            fci_group: None,
+            references: Vec::new(),
+            values,
+            set,
+            look: Look::default(),
+            varieties: Vec::new(),
+        }
     }
 
     /// Sets row `index` to a value (SI), cut off at the ends of its range; what follows it moves along.
@@ -85,7 +115,28 @@ impl Breed {
         let join =
             |of: fn(&Breed) -> &str, with: &str| weighted.iter().map(|(b, _)| of(b)).collect::<Vec<_>>().join(with);
         let (id, label) = (join(|b| &b.id, "+"), join(|b| &b.label, " + "));
-        Breed { id, label, fci_group: None, references: Vec::new(), values, set, look: Look::blend(&looks) }
+        let look = Look::blend(&looks);
+        Breed { id, label, fci_group: None, references: Vec::new(), values, set, look, varieties: Vec::new() }
+    }
+
+    /// Puts on one of the breed's coats.
+    ///
+    /// # Errors
+    /// A name that none of them has.
+    pub fn wear(&mut self, coat: &str) -> Result<(), UnknownCoat> {
+        if let Some(variety) = self.varieties.iter().find(|v| v.name == coat) {
+            self.look = variety.look.clone();
+            return Ok(());
+        }
+        let coats: Vec<String> = self.varieties.iter().map(|v| v.name.clone()).collect();
+        let near = nearest(coat, coats.iter().map(|c| (c.as_str(), c.as_str())));
+        let near = near.into_iter().map(str::to_owned).collect();
+        Err(UnknownCoat { id: self.id.clone(), word: coat.to_owned(), nearest: near, coats })
+    }
+
+    /// The name of the coat that it wears; none where that has no name.
+    pub fn worn(&self) -> Option<&str> {
+        self.varieties.iter().find(|v| v.look == self.look).map(|v| v.name.as_str())
     }
 
     /// What a quantity is held against: the first reference with that id.

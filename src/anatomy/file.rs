@@ -6,11 +6,11 @@
 
 use super::locate::{Item, Node, Place};
 use super::read::{Fields, Problems};
-use super::{Hair, ProblemKind, Status, colour, hair};
+use super::{Look, ProblemKind, Status, Variety, coat_file as coat, colour};
 use glam::Vec3;
 
 /// The newest version that is read, and the one that is written.
-pub(super) const NEWEST: u32 = 1;
+pub(super) const NEWEST: u32 = 2;
 
 /// What stands in a file, not yet compared with a table.
 pub(super) struct BreedFile {
@@ -20,7 +20,8 @@ pub(super) struct BreedFile {
     pub references: Vec<ReferenceFile>,
     /// In the order of the file.
     pub anatomy: Vec<Measure>,
-    pub coat: CoatFile,
+    pub look: Look,
+    pub varieties: Vec<Variety>,
 }
 
 /// One of `references`.
@@ -43,41 +44,25 @@ pub(super) struct Measure {
     pub value_at: Place,
 }
 
-/// `coat: (…)`; colours are linear already.
-#[derive(Default)]
-pub(super) struct CoatFile {
-    pub base: Vec3,
-    pub marks: Vec<MarkFile>,
-    pub nose: Vec3,
-    pub lips: Vec3,
-    pub mouth: Vec3,
-    pub iris: Vec3,
-    pub fur: f32,
-    pub hair: Hair,
-}
-
-/// One of `marks`.
-pub(super) struct MarkFile {
-    pub regions: Vec<(String, Place)>,
-    pub colour: Vec3,
-    pub amount: f32,
-}
-
 /// The fields of a file, in the order in which they are written.
-const FIELDS: [&str; 6] = ["version", "label", "fci_group", "references", "anatomy", "coat"];
+const FIELDS: [&str; 8] = ["version", "label", "fci_group", "references", "anatomy", "coat", "coats", "wears"];
+/// Those of version 1, in which a breed had one coat, painted by region.
+const FIELDS_1: [&str; 6] = ["version", "label", "fci_group", "references", "anatomy", "coat"];
 
 /// Reads a file of any known version. `None` when it is none, which has been reported.
 pub(super) fn read(root: &Node, problems: &mut Problems) -> Option<BreedFile> {
-    let fields = problems.fields(root, "", "Breed", &FIELDS)?;
-    // A second version makes this a `match` whose older arms end in a step to the newer form.
-    problems.version(&fields, NEWEST)?;
-    Some(read_version_1(&fields, problems))
+    let is_old = matches!(&root.item, Item::Record(_, entries) if entries.iter().any(|e| {
+        e.key.item == Item::Text("version".into()) && e.value.item == Item::Number(1.0)
+    }));
+    let fields = problems.fields(root, "", "Breed", if is_old { &FIELDS_1 } else { &FIELDS })?;
+    let version = problems.version(&fields, NEWEST)?;
+    Some(read_breed(&fields, version, problems))
 }
 
-fn read_version_1(fields: &Fields<'_>, problems: &mut Problems) -> BreedFile {
+fn read_breed(fields: &Fields<'_>, version: u32, problems: &mut Problems) -> BreedFile {
     let label = fields.require("label", problems).and_then(|n| problems.full_text(n, "label"));
     let anatomy = fields.require("anatomy", problems).map(|n| read_measures(n, problems));
-    let coat = fields.require("coat", problems).and_then(|n| read_coat(n, problems));
+    let (look, varieties) = coat::read(fields, version, problems);
     let fci_group = fields.get("fci_group").and_then(|n| problems.whole_number_in(n, "fci_group", 1, 10));
     let references = fields.get("references").map_or(Vec::new(), |node| {
         let nodes = problems.list(node, "references").iter().enumerate();
@@ -88,7 +73,8 @@ fn read_version_1(fields: &Fields<'_>, problems: &mut Problems) -> BreedFile {
         fci_group,
         references,
         anatomy: anatomy.unwrap_or_default(),
-        coat: coat.unwrap_or_default(),
+        look,
+        varieties,
     }
 }
 
@@ -136,56 +122,8 @@ fn read_measures(node: &Node, problems: &mut Problems) -> Vec<Measure> {
     measures
 }
 
-fn read_coat(node: &Node, problems: &mut Problems) -> Option<CoatFile> {
-    let allowed = ["base", "marks", "nose", "lips", "mouth", "iris", "fur", "hair"];
-    let fields = problems.fields(node, "coat", "Coat", &allowed)?;
-    let mut colour = |key: &str| {
-        let node = fields.require(key, problems);
-        node.and_then(|n| read_colour(n, &fields.path_of(key), problems)).unwrap_or_default()
-    };
-    let (base, nose, lips) = (colour("base"), colour("nose"), colour("lips"));
-    let (mouth, iris) = (colour("mouth"), colour("iris"));
-    let fur = fields.get("fur").map_or(Some(1.0), |n| problems.number_in(n, "coat.fur", 0.0, 1.0));
-    let marks = fields.get("marks").map_or(Vec::new(), |node| {
-        let nodes = problems.list(node, "coat.marks").iter().enumerate();
-        nodes.filter_map(|(i, n)| read_mark(n, &format!("coat.marks[{i}]"), problems)).collect()
-    });
-    let hair = fields.get("hair").map_or(Some(Hair::default()), |n| read_hair(n, problems)).unwrap_or_default();
-    Some(CoatFile { base, marks, nose, lips, mouth, iris, fur: fur.unwrap_or_default() as f32, hair })
-}
-
-fn read_hair(node: &Node, problems: &mut Problems) -> Option<Hair> {
-    let fields = problems.fields(node, "coat.hair", "Hair", &hair::NAMES)?;
-    let given: Vec<Option<f32>> = hair::FIELDS
-        .iter()
-        .map(|field| {
-            let path = fields.path_of(field.name);
-            let value = problems.number_in(fields.get(field.name)?, &path, 0.0, field.max())?;
-            Some((value * field.unit()) as f32)
-        })
-        .collect();
-    Some(Hair::from_given(|i| given[i]))
-}
-
-fn read_mark(node: &Node, path: &str, problems: &mut Problems) -> Option<MarkFile> {
-    let fields = problems.fields(node, path, "Mark", &["regions", "colour", "amount"])?;
-    let regions = fields.require("regions", problems).map(|n| {
-        let path = fields.path_of("regions");
-        let names = problems.list(n, &path).iter();
-        names.filter_map(|name| Some((problems.text(name, &path)?, name.place))).collect()
-    });
-    let colour = fields.require("colour", problems).and_then(|n| read_colour(n, &fields.path_of("colour"), problems));
-    let amount = fields.require("amount", problems);
-    let amount = amount.and_then(|n| problems.number_in(n, &fields.path_of("amount"), 0.0, 1.0));
-    Some(MarkFile {
-        regions: regions.unwrap_or_default(),
-        colour: colour.unwrap_or_default(),
-        amount: amount.unwrap_or_default() as f32,
-    })
-}
-
 /// `"#rrggbb"` in sRGB, or `(red, green, blue)` in linear light, as a blend of two coats needs.
-fn read_colour(node: &Node, field: &str, problems: &mut Problems) -> Option<Vec3> {
+pub(super) fn read_colour(node: &Node, field: &str, problems: &mut Problems) -> Option<Vec3> {
     let field = field.to_owned();
     match &node.item {
         Item::Text(text) => {

@@ -2,15 +2,13 @@
 
 use super::file::{self, BreedFile};
 use super::read::Problems;
-use super::{
-    Breed, LoadErrors, Look, Mark, ParamTable, ProblemKind, QUANTITIES, Quantity, Reference, Region, locate, nearest,
-};
+use super::{Breed, LoadErrors, ParamTable, ProblemKind, QUANTITIES, Quantity, Reference, locate, nearest};
 
 /// Reads a breed. `name` is the file's name or path: it stands in messages, and its stem becomes the breed's id.
 ///
 /// # Errors
 /// The first syntax error, or every mistake of meaning: unknown or double or missing fields, wrong types, values out of range
-/// or not finite, unknown parameters, measures, regions, colours, versions. Each has its place.
+/// or not finite, unknown parameters, measures, markings, regions, colours, versions. Each has its place.
 pub fn load_breed(table: &ParamTable, name: &str, text: &str) -> Result<Breed, LoadErrors> {
     let root = locate::parse(name, text)?;
     let mut problems = Problems::default();
@@ -41,7 +39,7 @@ fn resolve(table: &ParamTable, name: &str, file: BreedFile, problems: &mut Probl
         }
     }
     table.resolve(&mut breed.values, &breed.set);
-    breed.look = resolve_look(file.coat, problems);
+    (breed.look, breed.varieties) = (file.look, file.varieties);
     breed
 }
 
@@ -71,26 +69,6 @@ fn resolve_references(list: Vec<file::ReferenceFile>, problems: &mut Problems) -
         lines.push(measure_at.line);
     }
     references
-}
-
-fn resolve_look(coat: file::CoatFile, problems: &mut Problems) -> Look {
-    let mut marks = Vec::new();
-    for mark in coat.marks {
-        let mut regions = Vec::new();
-        for (name, place) in mark.regions {
-            match Region::from_name(&name) {
-                Some(region) => regions.push(region),
-                None => {
-                    let near = nearest(&name, Region::ALL.iter().map(|r| (r.name(), r.name())));
-                    let near = near.into_iter().map(str::to_owned).collect();
-                    problems.push(place, ProblemKind::UnknownRegion { name, nearest: near });
-                }
-            }
-        }
-        marks.push(Mark { regions, colour: mark.colour, amount: mark.amount });
-    }
-    let file::CoatFile { base, nose, lips, mouth, iris, fur, hair, .. } = coat;
-    Look { base, marks, nose, lips, mouth, iris, fur, hair }
 }
 
 /// The file's name without folders and ending.

@@ -1,26 +1,42 @@
 //! How a dog's coat looks.
 
-use super::{Hair, Region, colour};
+use super::{Hair, Marking, Paint, Pigments, colour};
 use glam::Vec3;
 
-/// A patch of another colour over one or more regions.
+/// The colours of a coat: what it is painted with, and layers of markings.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// Where it lies.
-    pub regions: Vec<Region>,
-    /// Linear red, green, blue, each 0 to 1.
-    pub colour: Vec3,
-    /// 0 leaves what is below, 1 covers it.
-    pub amount: f32,
+pub struct Pattern {
+    /// The dog's pigments.
+    pub pigments: Pigments,
+    /// The coat where no marking is.
+    pub base: Paint,
+    /// Painted over the base in this order.
+    pub markings: Vec<Marking>,
+}
+
+/// The largest share that leaves something.
+const MOST_SHARE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+impl Pattern {
+    /// One colour, linear, all over.
+    pub fn plain(colour: Vec3) -> Self {
+        Self { pigments: Pigments::default(), base: Paint::Colour(colour), markings: Vec::new() }
+    }
+
+    /// The colour where no marking is, linear.
+    pub fn base_colour(&self) -> Vec3 {
+        self.pigments.colour(self.base)
+    }
 }
 
 /// Colours of a head, linear, each channel 0 to 1; and its hair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
-    /// Colour of the coat where no mark is.
-    pub base: Vec3,
-    /// Painted over the base in this order.
-    pub marks: Vec<Mark>,
+    /// The colours of the coat.
+    pub pattern: Pattern,
+    /// Other coats mixed in, each with its share: the colour of a place is the mean. Shares are above 0 and their sum is
+    /// below 1; the rest is that of `pattern`.
+    pub mixed: Vec<(f32, Pattern)>,
     /// Nose pad.
     pub nose: Vec3,
     /// Bare margins of the lips and lids.
@@ -35,60 +51,76 @@ pub struct Look {
     pub hair: Hair,
 }
 
+/// A look under the name by which breeders know it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variety {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub look: Look,
+}
+
+/// The lining of the mouth where a file does not tell.
+pub(super) fn pink() -> Vec3 {
+    colour::from_srgb8([0xb0, 0x6a, 0x68])
+}
+
 impl Default for Look {
     /// A yellow dog with a dark nose.
     fn default() -> Self {
-        let srgb = colour::from_srgb8;
-        Self {
-            base: srgb([0xd9, 0xb2, 0x7c]),
-            marks: Vec::new(),
-            nose: srgb([0x2a, 0x24, 0x22]),
-            lips: srgb([0x2b, 0x23, 0x22]),
-            mouth: srgb([0xb5, 0x6a, 0x66]),
-            iris: srgb([0x5a, 0x3a, 0x1a]),
-            fur: 1.0,
-            hair: Hair::default(),
-        }
+        Self::of(Pattern::plain(colour::from_srgb8([0xd9, 0xb2, 0x7c])))
     }
 }
 
 impl Look {
-    /// Colour of a region's coat: the base, then each mark that names the region, in order.
-    pub fn colour(&self, region: Region) -> Vec3 {
-        let marks = self.marks.iter().filter(|m| m.regions.contains(&region));
-        marks.fold(self.base, |below, mark| below * (1.0 - mark.amount) + mark.colour * mark.amount)
+    /// A short coat with what goes with its pigments.
+    pub fn of(pattern: Pattern) -> Self {
+        let eumelanin = pattern.pigments.eumelanin;
+        let (nose, lips, iris) = (eumelanin.nose(), eumelanin.lips(), eumelanin.iris());
+        Self { pattern, mixed: Vec::new(), nose, lips, mouth: pink(), iris, fur: 1.0, hair: Hair::default() }
     }
 
-    /// The colours of all regions, in the order of [`Region::ALL`].
-    pub fn colours(&self) -> [Vec3; Region::COUNT] {
-        Region::ALL.map(|region| self.colour(region))
+    /// Every coat of which the colour of a place is the mean, with its share; shares sum to 1.
+    pub fn shares(&self) -> impl Iterator<Item = (f32, &Pattern)> {
+        let rest = 1.0 - self.mixed.iter().map(|(share, _)| share).sum::<f32>();
+        std::iter::once((rest, &self.pattern)).chain(self.mixed.iter().map(|(share, pattern)| (*share, pattern)))
     }
 
-    /// Mixes looks: each region's colour, and every other colour, is the weighted mean. Weights sum to 1.
+    /// The colour where no marking is, linear.
+    pub fn base_colour(&self) -> Vec3 {
+        self.shares().fold(Vec3::ZERO, |sum, (share, pattern)| sum + pattern.base_colour() * share)
+    }
+
+    /// Mixes looks: the colour of each place, and every other number, is the weighted mean. Weights sum to 1.
     ///
-    /// The result has one covering mark for each colour that differs from the mixed base, so that its colours are exactly
-    /// the means and a file can hold it.
+    /// The coats of the result are those of the looks, each with its share, like ones once; so a file can hold it, and
+    /// mixing mixtures makes nothing deeper.
     pub(super) fn blend(looks: &[(&Look, f64)]) -> Look {
+        let mut coats: Vec<(f64, &Pattern)> = Vec::new();
+        for (look, weight) in looks {
+            for (share, pattern) in look.shares() {
+                let share = f64::from(share) * weight;
+                match coats.iter_mut().find(|(_, known)| *known == pattern) {
+                    Some(known) => known.0 += share,
+                    None => coats.push((share, pattern)),
+                }
+            }
+        }
+        let (pattern, rest) = match coats.split_first() {
+            Some(((_, first), rest)) => ((*first).clone(), rest),
+            None => (Look::default().pattern, &[] as &[(f64, &Pattern)]),
+        };
+        // A share that rounds to nothing is nothing.
+        let mixed = rest.iter().map(|(share, pattern)| ((*share as f32).min(MOST_SHARE), (*pattern).clone()));
+        let mixed = mixed.filter(|(share, _)| *share > 0.0).collect();
         let mean = |of: &dyn Fn(&Look) -> Vec3| {
             let sum = looks.iter().fold(glam::DVec3::ZERO, |sum, (look, w)| sum + of(look).as_dvec3() * *w);
             sum.as_vec3().clamp(Vec3::ZERO, Vec3::ONE)
         };
-        let base = mean(&|l| l.base);
-        let mut marks: Vec<Mark> = Vec::new();
-        for region in Region::ALL {
-            let colour = mean(&|l| l.colour(region));
-            if colour == base {
-                continue;
-            }
-            match marks.iter_mut().find(|m| m.colour == colour) {
-                Some(mark) => mark.regions.push(region),
-                None => marks.push(Mark { regions: vec![region], colour, amount: 1.0 }),
-            }
-        }
         let fur = looks.iter().fold(0.0, |sum, (look, w)| sum + f64::from(look.fur) * w) as f32;
         Look {
-            base,
-            marks,
+            pattern,
+            mixed,
             nose: mean(&|l| l.nose),
             lips: mean(&|l| l.lips),
             mouth: mean(&|l| l.mouth),

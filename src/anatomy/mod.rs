@@ -9,6 +9,7 @@
 //! - [`library`] holds the table and the breeds that are part of the program.
 
 mod breed;
+mod coat_file;
 pub mod colour;
 mod file;
 mod hair;
@@ -18,8 +19,10 @@ mod load;
 mod locate;
 mod locks;
 mod look;
+mod marking;
 mod nearest;
 mod param;
+mod pigment;
 mod problem;
 mod read;
 mod reference;
@@ -28,15 +31,17 @@ mod save;
 mod space;
 mod table;
 
-pub use breed::Breed;
+pub use breed::{Breed, UnknownCoat};
 pub use hair::Hair;
 pub use litter::{INHERITED_WHOLE, cross};
 pub use load::load_breed;
 pub use locate::Place;
 pub use locks::{Locks, UnknownLock};
-pub use look::{Look, Mark};
+pub use look::{Look, Pattern, Variety};
+pub use marking::{MOST_FIELDS, Marking, MarkingField, MarkingKind};
 pub use nearest::nearest;
 pub use param::{Follow, ParamSpec, Unit};
+pub use pigment::{Eumelanin, Paint, Pigments};
 pub use problem::{LoadErrors, Problem, ProblemKind};
 pub use reference::{QUANTITIES, Quantity, Reference, Status};
 pub use region::Region;

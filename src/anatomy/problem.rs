@@ -21,7 +21,7 @@ pub struct Problem {
     pub kind: ProblemKind,
 }
 
-/// The kinds of mistakes. Fields are named by their path, as in `coat.marks[0].amount`.
+/// The kinds of mistakes. Fields are named by their path, as in `coat.markings[0].amount`.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ProblemKind {
     /// Not RON.
@@ -128,6 +128,65 @@ pub enum ProblemKind {
         name: String,
         /// Known regions with similar names.
         nearest: Vec<String>,
+    },
+    /// No such kind of marking.
+    #[error("{field}: unknown marking {name}{}; allowed are {}", did_you_mean(nearest), allowed.join(", "))]
+    UnknownMarking {
+        /// Path of the field.
+        field: String,
+        /// The name in the file.
+        name: String,
+        /// Known kinds with similar names.
+        nearest: Vec<String>,
+        /// All known kinds.
+        allowed: Vec<&'static str>,
+    },
+    /// A word that is not among those that a field may have.
+    #[error("{field} must be one of {}, without quotes, found {found}{}", allowed.join(", "), did_you_mean(nearest))]
+    UnknownWord {
+        /// Path of the field.
+        field: String,
+        /// What stands there.
+        found: String,
+        /// Known words with similar names.
+        nearest: Vec<String>,
+        /// All known words.
+        allowed: Vec<&'static str>,
+    },
+    /// A breed has one coat or several.
+    #[error("a breed has either coat: (…) or coats: {{\"name\": (…), …}} with at least one, {found}")]
+    CoatOrCoats {
+        /// What the file has.
+        found: &'static str,
+    },
+    /// A breed wears a coat that it does not have.
+    #[error("wears is {name:?}{}, which is none of coats: {}", did_you_mean(nearest), coats.join(", "))]
+    UnknownVariety {
+        /// The name in the file.
+        name: String,
+        /// Coats of the file with similar names.
+        nearest: Vec<String>,
+        /// All coats of the file.
+        coats: Vec<String>,
+    },
+    /// Coats mixed in leave nothing of the first.
+    #[error("{field}: the shares sum to {sum}, which must be below 1: the rest is that of the coat itself")]
+    Shares {
+        /// Path of the field.
+        field: String,
+        /// Their sum.
+        sum: f64,
+    },
+    /// Not a paint.
+    #[error(
+        "{field} must be a colour, \"#rrggbb\" or (red, green, blue) in linear light from 0 to 1, or Eumelanin, \
+         Phaeomelanin, Phaeomelanin(intensity) or White, found {found}"
+    )]
+    BadPaint {
+        /// Path of the field.
+        field: String,
+        /// What stands there.
+        found: String,
     },
     /// Not a colour.
     #[error("{field} must be a colour, \"#rrggbb\" or (red, green, blue) in linear light from 0 to 1, found {found}")]

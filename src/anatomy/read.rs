@@ -201,6 +201,11 @@ impl<'a> Fields<'a> {
         node
     }
 
+    /// Where the record begins.
+    pub fn place(&self) -> Place {
+        self.place
+    }
+
     /// The field's name with the names of the records around it.
     pub fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }

@@ -1,7 +1,7 @@
 //! [`Breed`] to text.
 
 use super::file::NEWEST;
-use super::{Breed, Hair, ParamTable, Reference, colour, hair, param};
+use super::{Breed, Hair, ParamTable, Reference, Variety, coat_file, colour, hair, param};
 use glam::Vec3;
 use std::fmt::Write;
 
@@ -9,6 +9,7 @@ use std::fmt::Write;
 /// the table, and the look.
 ///
 /// [`super::load_breed`] turns the text into the same breed again, to the bit; only the id is the file's name and not in it.
+/// A dog that wears none of its breed's coats is written with that coat alone.
 pub fn save_breed(table: &ParamTable, breed: &Breed) -> String {
     let mut out = String::new();
     // Writing into a String cannot fail.
@@ -33,25 +34,28 @@ fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt:
     for (i, spec) in table.specs.iter().enumerate().filter(|(i, _)| breed.set[*i]) {
         writeln!(out, "        \"{}\": {:?},", spec.id, spec.from_si(breed.values[i]))?;
     }
-    let look = &breed.look;
-    writeln!(out, "    }},\n    coat: (\n        base: {},", colour_text(look.base))?;
-    if !look.marks.is_empty() {
-        writeln!(out, "        marks: [")?;
-        for mark in &look.marks {
-            let regions: Vec<String> = mark.regions.iter().map(|r| format!("\"{}\"", r.name())).collect();
-            let (regions, colour) = (regions.join(", "), colour_text(mark.colour));
-            writeln!(out, "            (regions: [{regions}], colour: {colour}, amount: {}),", number(mark.amount))?;
+    writeln!(out, "    }},")?;
+    if let Some(worn) = breed.worn() {
+        writeln!(out, "    coats: {{")?;
+        let first = &breed.varieties[0];
+        for (i, Variety { name, look }) in breed.varieties.iter().enumerate() {
+            writeln!(out, "        {}: (", quoted(name))?;
+            coat_file::write(out, "            ", look, (i > 0).then_some(&first.look))?;
+            writeln!(out, "        ),")?;
         }
-        writeln!(out, "        ],")?;
+        writeln!(out, "    }},")?;
+        if breed.look != first.look {
+            writeln!(out, "    wears: {},", quoted(worn))?;
+        }
+    } else {
+        writeln!(out, "    coat: (")?;
+        coat_file::write(out, "        ", &breed.look, None)?;
+        writeln!(out, "    ),")?;
     }
-    for (name, colour) in [("nose", look.nose), ("lips", look.lips), ("mouth", look.mouth), ("iris", look.iris)] {
-        writeln!(out, "        {name}: {},", colour_text(colour))?;
-    }
-    writeln!(out, "        fur: {},", number(look.fur))?;
-    writeln!(out, "        hair: ({}),\n    ),\n)", hair_text(&look.hair))
+    writeln!(out, ")")
 }
 
-fn hair_text(hair: &Hair) -> String {
+pub(super) fn hair_text(hair: &Hair) -> String {
     let numbers = hair::FIELDS.iter().map(|field| {
         let (value, unit) = ((field.get)(hair), field.unit());
         let is_same = |c: f64| ((c * unit) as f32).to_bits() == value.to_bits();
@@ -60,7 +64,7 @@ fn hair_text(hair: &Hair) -> String {
     numbers.collect::<Vec<_>>().join(", ")
 }
 
-fn colour_text(linear: Vec3) -> String {
+pub(super) fn colour_text(linear: Vec3) -> String {
     let hex = colour::to_hex(linear);
     if colour::from_hex(&hex) == Some(linear) {
         return format!("\"{hex}\"");
@@ -69,7 +73,7 @@ fn colour_text(linear: Vec3) -> String {
     format!("({r}, {g}, {b})")
 }
 
-fn number(value: f32) -> String {
+pub(super) fn number(value: f32) -> String {
     let short = param::shortest(f64::from(value), |c| (c as f32).to_bits() == value.to_bits());
     format!("{short:?}")
 }

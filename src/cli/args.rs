@@ -88,6 +88,10 @@ pub(super) struct View {
 /// Changes of a breed that every command understands.
 #[derive(Args, Debug)]
 pub(super) struct Changes {
+    /// Which of the breed's coats it wears; without it, the first. 'londra list breeds' names them, and wherever a breed
+    /// is named, NAME:COAT is understood
+    #[arg(long, value_name = "NAME")]
+    pub coat: Option<String>,
     /// Set a measure, in the unit its id ends in; may be repeated, the last one of an id holds
     #[arg(long = "set", value_name = "ID=VALUE", value_parser = values::setting)]
     pub set: Vec<Setting>,

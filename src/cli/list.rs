@@ -17,7 +17,11 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
                 return output::json(&breeds.iter().map(breed_as_json).collect());
             }
             let width = breeds.iter().map(|b| b.id.chars().count()).max().unwrap_or(0);
-            let lines = breeds.iter().map(|b| format!("{:width$}  {}", b.id, b.label));
+            let lines = breeds.iter().map(|b| {
+                let coats: Vec<&str> = b.varieties.iter().map(|v| v.name.as_str()).collect();
+                let coats = if coats.is_empty() { String::new() } else { format!(" ({})", coats.join(", ")) };
+                format!("{:width$}  {}{coats}", b.id, b.label)
+            });
             output::result(&lines.collect::<Vec<_>>().join("\n"))
         }
         Listed::Parameters => {
@@ -39,9 +43,10 @@ pub(super) fn run(args: &List) -> Result<(), Failure> {
 fn breed_as_json(breed: &Breed) -> Value {
     let index = breed.reference("skull_index").map(|r| SkullClass::of(r.value as f32).name());
     let references: Vec<Value> = breed.references.iter().map(|r| super::measure::as_json(r, None)).collect();
+    let coats: Vec<&str> = breed.varieties.iter().map(|v| v.name.as_str()).collect();
     json!({
         "id": breed.id, "label": breed.label, "fci_group": breed.fci_group, "reference_class": index,
-        "references": references,
+        "references": references, "coats": coats,
     })
 }
 

@@ -38,8 +38,20 @@ impl Rigs {
         Ok(Self { table: Arc::new(table), folder })
     }
 
-    /// A breed by name, or by a file that ends in `.ron`.
+    /// A breed by name, or by a file that ends in `.ron`; behind a colon, which of its coats it wears.
     pub fn breed(&self, word: &str) -> Result<Breed, Failure> {
+        // A colon may also stand behind the letter of a drive.
+        match word.rsplit_once(':').filter(|(_, coat)| !coat.contains(['/', '\\', '.'])) {
+            Some((breed, coat)) => {
+                let mut breed = self.in_its_first_coat(breed)?;
+                breed.wear(coat).map_err(|error| Failure::Use(error.to_string()))?;
+                Ok(breed)
+            }
+            None => self.in_its_first_coat(word),
+        }
+    }
+
+    fn in_its_first_coat(&self, word: &str) -> Result<Breed, Failure> {
         if is_file(word) {
             return self.load(Path::new(word));
         }

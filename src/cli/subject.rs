@@ -1,4 +1,4 @@
-//! From `--breed`, `--blend` and `--set` to a breed, and from a breed to a frame.
+//! From `--breed`, `--coat`, `--blend` and `--set` to a breed, and from a breed to a frame.
 
 use super::args::{Changes, Detail};
 use super::rigs::Rigs;
@@ -8,9 +8,12 @@ use crate::frame::Pipeline;
 use crate::rig::Rig;
 use std::sync::Arc;
 
-/// The breed that the words describe: first the breed, then what is mixed in, then what is set.
+/// The breed that the words describe: first the breed in its coat, then what is mixed in, then what is set.
 pub(super) fn breed(rigs: &Rigs, word: &str, changes: &Changes) -> Result<Breed, Failure> {
-    let base = rigs.breed(word)?;
+    let mut base = rigs.breed(word)?;
+    if let Some(coat) = &changes.coat {
+        base.wear(coat).map_err(|error| Failure::Use(error.to_string()))?;
+    }
     let others: Vec<(Breed, f32)> = changes
         .blend
         .iter()

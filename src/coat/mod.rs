@@ -1,12 +1,19 @@
-//! The coat: where each hair stands, how long it is there and which way it is combed.
+//! The coat: where each hair stands, how long it is there, which way it is combed and which colour it has.
 //!
-//! Lifetimes: [`Root`]s once per topology; the numbers of [`groom()`] once per breed's look. What a hair looks like is worked
-//! out where it is drawn, from these and from the skin as it is at that moment.
+//! Lifetimes: [`Root`]s and the [`Chart`] once per topology; the numbers of [`groom()`] and the [`Colours`] once per breed's
+//! look. What a hair looks like is worked out where it is drawn, from these and from the skin as it is at that moment.
 
+mod chart;
+mod colours;
 mod groom;
+mod markings;
+mod noise;
 mod roots;
 
+pub use chart::{Chart, Site};
+pub use colours::Colours;
 pub use groom::groom;
+pub use markings::Colouring;
 pub use roots::{MAX_STRANDS, Root, roots};
 
 use crate::anatomy::{Hair, Region};
@@ -34,6 +41,8 @@ pub const LEVELS: [(&str, usize); 4] = [("off", 0), ("low", 10_000), ("medium", 
 pub struct Coat<'a> {
     /// The first so many of them are an even spread for every number.
     pub roots: &'a [Root],
+    /// For each root the hair's own colour, linear.
+    pub colours: &'a [Vec3],
     /// For each vertex of the skin: x length of hair, metres, 0 where there is none; y how far it stands off the skin, a
     /// factor; z how deep the place is hidden, 0 to 1.
     pub growth: &'a [Vec3],

@@ -36,6 +36,16 @@ pub struct Root {
     pub weights: [f32; 2],
     /// What makes this hair differ from its neighbours.
     pub seed: u32,
+    /// Where it stands on the base head, head units: what the noise of locks is bound to.
+    pub place: [f32; 3],
+}
+
+impl Root {
+    /// The value at the root from those at the corners of its triangle.
+    pub fn mixed(&self, [a, b, c]: [Vec3; 3]) -> Vec3 {
+        let [second, third] = self.weights;
+        a * (1.0 - second - third) + b * second + c * third
+    }
 }
 
 /// How densely a region is haired, relative to the cheek. Short hair needs more of it to cover.
@@ -89,7 +99,9 @@ pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool],
         let triangle = ends.partition_point(|&end| end <= wanted).min(ends.len() - 1) as u32;
         // Evenly over the triangle: Osada, Funkhouser, Chazelle and Dobkin 2002, "Shape distributions", equation 1.
         let (s, t) = (ops::sqrt(rng.unit_f32()), rng.unit_f32());
-        Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32() }
+        let mut root = Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32(), place: [0.0; 3] };
+        root.place = root.mixed(triangles[triangle as usize].map(|v| skin[v as usize])).to_array();
+        root
     };
     (0..n.min(MAX_STRANDS)).map(make).collect()
 }

@@ -15,7 +15,7 @@ use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
-use crate::coat::{self, Coat, Root};
+use crate::coat::{self, Chart, Coat, Colours, Root};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
@@ -54,7 +54,8 @@ pub struct Pipeline {
     evaluator: Evaluator,
     deformed: Deformed,
     control_flow: Vec<Vec3>,
-    control_colours: Vec<Vec3>,
+    control_leathers: Vec<Vec3>,
+    control_bare: Vec<Vec3>,
     control_surface: Vec<Vec3>,
     parts: [Values; 4],
     eyelids: EyelidParts,
@@ -68,6 +69,8 @@ pub struct Pipeline {
     skeleton: Option<Skeleton>,
     /// Once mouth or tongue are asked for.
     mouth: Option<MouthParts>,
+    /// Of the skin's plan, once it has been painted.
+    chart: Option<Chart>,
     hair: HairValues,
     values: Vec<f32>,
     pose: Pose,
@@ -84,6 +87,8 @@ struct HairValues {
     n_strands: usize,
     /// Of this level.
     roots: Vec<Root>,
+    /// One for each root.
+    colours: Vec<Vec3>,
     control_growth: Vec<Vec3>,
     control_comb: Vec<Vec3>,
     growth: Vec<Vec3>,
@@ -105,7 +110,8 @@ impl Pipeline {
             threads: 1,
             deformed: Deformed::default(),
             control_flow: vec![Vec3::ZERO; n],
-            control_colours: vec![Vec3::ZERO; n],
+            control_leathers: vec![Vec3::ZERO; n],
+            control_bare: vec![Vec3::ZERO; n],
             control_surface: vec![Vec3::ZERO; n],
             parts,
             eyelids: EyelidParts::new(&rig)?,
@@ -115,6 +121,7 @@ impl Pipeline {
             uv: false,
             skeleton: None,
             mouth: None,
+            chart: None,
             hair: HairValues::default(),
             values: Vec::new(),
             pose: Pose::default(),
@@ -168,6 +175,7 @@ impl Pipeline {
         self.revisions.topology += 1;
         self.values.clear();
         self.look = None;
+        self.chart = None;
         self.root_hair();
         let wants_uv = std::mem::take(&mut self.uv);
         self.set_uv(wants_uv)
@@ -234,9 +242,10 @@ impl Pipeline {
         }
     }
 
-    /// Makes the roots that are wanted on the skin of this level.
+    /// Makes the roots that are wanted on the skin of this level; they are painted with the next frame.
     fn root_hair(&mut self) {
         self.hair.roots.clear();
+        self.look = None;
         if self.hair.n_strands > 0 {
             let topology = &self.parts[0].topology;
             let triangles = topology.indices.as_chunks::<3>().0;
@@ -314,9 +323,9 @@ impl Pipeline {
     }
 
     fn coat(&self) -> Option<Coat<'_>> {
-        let HairValues { roots, growth, comb, .. } = &self.hair;
+        let HairValues { roots, colours, growth, comb, .. } = &self.hair;
         let look = self.look.as_ref().filter(|_| self.layers.skin > 0.0)?;
-        Some(Coat { roots, growth, comb, hair: &look.hair })
+        Some(Coat { roots, colours, growth, comb, hair: &look.hair })
     }
 
     /// The parts of the layers, in the written order.
@@ -356,11 +365,25 @@ impl Pipeline {
     }
 
     fn paint(&mut self, look: &Look) {
-        skin::paint(&self.rig, look, &mut self.control_colours, &mut self.control_surface);
+        let Self { control_leathers: leathers, control_bare: bare, control_surface, .. } = self;
+        skin::paint(&self.rig, look, leathers, bare, control_surface);
         let [skin, cap, left, right] = &mut self.parts;
-        self.evaluator.evaluate_attribute(&self.plan, &self.control_colours, &mut skin.colours);
-        self.evaluator.evaluate_attribute(&self.plan, &self.control_surface, &mut skin.surface);
-        let HairValues { control_growth, control_comb, growth, comb, .. } = &mut self.hair;
+        self.evaluator.evaluate_attribute(&self.plan, control_surface, &mut skin.surface);
+        let HairValues { roots, colours: of_hair, control_growth, control_comb, growth, comb, .. } = &mut self.hair;
+        let chart = self.chart.get_or_insert_with(|| Chart::new(&self.rig, &self.plan));
+        let colours = Colours::new(look, &self.rig, &self.plan, chart);
+        colours.of_skin(self.threads, &mut skin.colours);
+        of_hair.resize(roots.len(), Vec3::ZERO);
+        colours.of_hair(roots, skin.topology.indices.as_chunks::<3>().0, self.threads, of_hair);
+        self.whiskers.paint(&skin.colours);
+        cap.colours.fill(rim_colour(&self.plan, &skin.colours) * 0.35);
+        // Two buffers that hold something else from here on.
+        let (refined_leathers, refined_bare) = (&mut *growth, &mut *comb);
+        for (control, refined) in [(leathers, &mut *refined_leathers), (bare, &mut *refined_bare)] {
+            refined.resize(self.plan.n_vertices(), Vec3::ZERO);
+            self.evaluator.evaluate_attribute(&self.plan, control, refined);
+        }
+        skin::put_leather_on(&mut skin.colours, refined_leathers, refined_bare);
         for values in [&mut *control_growth, &mut *control_comb] {
             values.resize(self.rig.mesh().n_vertices(), Vec3::ZERO);
         }
@@ -371,13 +394,11 @@ impl Pipeline {
         coat::groom(&self.rig, &look.hair, |v| surface[v].z, control_growth, control_comb);
         self.evaluator.evaluate_attribute(&self.plan, control_growth, growth);
         self.evaluator.evaluate_attribute(&self.plan, control_comb, comb);
-        cap.colours.fill(look.base * 0.35);
         for eye in [left, right] {
             eyeball::colours(look.iris, &mut eye.colours);
             eye.surface.fill(Vec3::new(0.0, 1.0, 0.0));
         }
         self.eyelids.paint(look);
-        self.whiskers.paint(look);
         if let Some(inside) = &mut self.mouth {
             inside.paint(look);
         }
@@ -434,6 +455,12 @@ fn cap_topology(plan: &Plan) -> PartTopology {
     }
     let ranges = vec![MaterialRange { material: Material::Cap, start: 0, count: indices.len() as u32 }];
     PartTopology { name: "neck_cap", n_vertices: n + plan.boundary_loops().len(), indices, ranges }
+}
+
+/// The mean colour of the skin around the neck's end.
+fn rim_colour(plan: &Plan, colours: &[Vec3]) -> Vec3 {
+    let rim = || plan.boundary_loops().iter().flatten().map(|&v| colours[v as usize]);
+    rim().fold(Vec3::ZERO, |sum, colour| sum + colour) / rim().count().max(1) as f32
 }
 
 fn place_cap(plan: &Plan, skin: &[Vec3], cap: &mut Values) {

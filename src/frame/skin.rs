@@ -59,17 +59,16 @@ pub(super) fn by_material(rig: &Rig, faces: &[u32], face_parent: &[u32]) -> (Vec
     (indices, ranges)
 }
 
-/// Colour of a region, linear.
-fn colour(look: &Look, region: Region) -> Vec3 {
-    let coat = look.colour(region);
+/// Colour of a region's leather, linear, and how much of it shows, 0 to 1.
+fn leather(look: &Look, region: Region) -> (Vec3, f32) {
     match region {
-        Region::Nose => look.nose,
-        Region::Nostril => look.nose * 0.35,
-        Region::Lid => look.lips * 0.7,
+        Region::Nose => (look.nose, 1.0),
+        Region::Nostril => (look.nose * 0.35, 1.0),
+        Region::Lid => (look.lips * 0.7, 1.0),
         // The margin itself is bare and dark; hair comes close to it.
-        Region::UpperLip | Region::LowerLip => coat.lerp(look.lips, 0.72),
-        Region::Mouth => look.mouth,
-        _ => coat,
+        Region::UpperLip | Region::LowerLip => (look.lips, 0.72),
+        Region::Mouth => (look.mouth, 1.0),
+        _ => (Vec3::ZERO, 0.0),
     }
 }
 
@@ -88,15 +87,25 @@ fn surface(look: &Look, region: Region) -> Vec3 {
     vec3(fur * look.fur, gloss, occlusion)
 }
 
-/// Colours and surface qualities of the control vertices (one each).
-pub(super) fn paint(rig: &Rig, look: &Look, colours: &mut [Vec3], qualities: &mut [Vec3]) {
+/// Leather and surface qualities of the control vertices (one each). `leathers`: the colour times how much of it shows;
+/// `bare`: x how much that is, 0 to 1.
+pub(super) fn paint(rig: &Rig, look: &Look, leathers: &mut [Vec3], bare: &mut [Vec3], qualities: &mut [Vec3]) {
     let regions = rig.half().whole_regions();
     for (v, &region) in regions.iter().enumerate() {
-        colours[v] = colour(look, region);
+        let (colour, part) = leather(look, region);
+        (leathers[v], bare[v]) = (colour * part, Vec3::splat(part));
         qualities[v] = surface(look, region);
     }
     // The lining's outermost row is the lip's inner side.
     for (v, pigment) in rig.inner_lip() {
-        colours[v] = look.mouth.lerp(look.lips, pigment);
+        leathers[v] = look.mouth.lerp(look.lips, pigment);
+    }
+}
+
+/// Puts leather on the coat's colours (one for each vertex of the refined skin); `leathers` and `bare` as [`paint`] made
+/// them, refined.
+pub(super) fn put_leather_on(coat: &mut [Vec3], leathers: &[Vec3], bare: &[Vec3]) {
+    for ((colour, leather), bare) in coat.iter_mut().zip(leathers).zip(bare) {
+        *colour = *colour * (1.0 - bare.x.clamp(0.0, 1.0)) + *leather;
     }
 }

@@ -2,7 +2,6 @@
 
 use super::parts::{Material, MaterialRange, PartTopology};
 use super::values::Values;
-use crate::anatomy::{Look, Region};
 use crate::math::ops;
 use crate::rig::whiskers::{Follicle, Whisker, follicles};
 use crate::rig::{ControlError, Rig};
@@ -88,9 +87,11 @@ impl WhiskerParts {
         }
     }
 
-    /// Dark, with something of the coat in it.
-    pub(super) fn paint(&mut self, look: &Look) {
-        self.values.colours.fill(look.colour(Region::WhiskerPad) * 0.16 + Vec3::splat(0.008));
+    /// Dark, with something of the coat in it that they stand in; `coat`: its colour at each vertex of the refined skin.
+    pub(super) fn paint(&mut self, coat: &[Vec3]) {
+        let around = |a: &Anchor| a.corners.iter().map(|&v| coat[v as usize]).sum::<Vec3>() / 3.0;
+        let mean = self.anchors.iter().map(around).sum::<Vec3>() / self.anchors.len().max(1) as f32;
+        self.values.colours.fill(mean * 0.16 + Vec3::splat(0.008));
         self.values.surface.fill(vec3(0.0, 0.3, 0.0));
     }
 }

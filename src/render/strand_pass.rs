@@ -1,7 +1,7 @@
 //! Hair, one ribbon each, grown on the graphics card from the vertex buffers that are drawn.
 //!
-//! Lifetimes: [`StrandPass`] once per device; roots once per topology and number of strands, length and direction of hair
-//! once per look. A frame whose shape alone has changed uploads nothing but [`Style`].
+//! Lifetimes: [`StrandPass`] once per device; roots once per topology and number of strands, colour, length and
+//! direction of hair once per look. A frame whose shape alone has changed uploads nothing but [`Style`].
 
 use super::head_buffers::{HeadBuffers, buffer};
 use super::mesh_pass::MeshPass;
@@ -45,6 +45,7 @@ pub(super) struct StrandPass {
 struct Loaded {
     revisions: Revisions,
     n_roots: usize,
+    colours: wgpu::Buffer,
     growth: wgpu::Buffer,
     comb: wgpu::Buffer,
     bindings: wgpu::BindGroup,
@@ -123,6 +124,7 @@ impl StrandPass {
             None => self.root(device, queue, coat, revisions, head, mesh),
         };
         if !is_painted {
+            self.write(queue, &loaded.colours, bytemuck::cast_slice(coat.colours));
             self.write(queue, &loaded.growth, bytemuck::cast_slice(coat.growth));
             self.write(queue, &loaded.comb, bytemuck::cast_slice(coat.comb));
         }
@@ -143,19 +145,11 @@ impl StrandPass {
         let storage = |label, n_bytes| buffer(device, label, n_bytes, wgpu::BufferUsages::STORAGE);
         let roots = storage("roots", size_of_val(coat.roots));
         self.write(queue, &roots, bytemuck::cast_slice(coat.roots));
+        let colours = storage("hair colours", size_of_val(coat.colours));
         let growth = storage("growth", size_of_val(coat.growth));
         let comb = storage("comb", size_of_val(coat.comb));
-        let buffers = [
-            &self.style,
-            &roots,
-            &head.indices,
-            &head.positions,
-            &head.normals,
-            &head.flow,
-            &head.colours,
-            &growth,
-            &comb,
-        ];
+        let buffers =
+            [&self.style, &roots, &head.indices, &head.positions, &head.normals, &head.flow, &colours, &growth, &comb];
         let resources = buffers.map(|b| b.as_entire_binding()).into_iter().chain(mesh.resources());
         let entries: Vec<_> =
             (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
@@ -164,7 +158,7 @@ impl StrandPass {
             layout: &self.layout,
             entries: &entries,
         });
-        Loaded { revisions, n_roots: coat.roots.len(), growth, comb, bindings, n_drawn: 0 }
+        Loaded { revisions, n_roots: coat.roots.len(), colours, growth, comb, bindings, n_drawn: 0 }
     }
 
     fn write(&mut self, queue: &wgpu::Queue, to: &wgpu::Buffer, bytes: &[u8]) {

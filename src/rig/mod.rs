@@ -23,7 +23,7 @@ pub mod whiskers;
 
 pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
-pub use handles::Handles;
+pub use handles::{EAR_RINGS, Handles};
 pub use landmarks::{Place, SkinLandmark};
 pub use pose::Pose;
 pub use proportions::{EarProportions, Measures, Proportions};
