@@ -135,7 +135,12 @@ impl Globals {
             background_bottom: background[1],
             measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, skin_opacity),
             viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
-            coat: Vec4::new(0.0, f32::from(preset.stuff() as u8), *exposure, *contact),
+            coat: Vec4::new(
+                0.0,
+                f32::from(preset.stuff() as u8),
+                *exposure,
+                if preset.has_ground() { *contact } else { 0.0 },
+            ),
             key_light: key_lamp.light.extend(0.0),
             fill_light: fill.light.extend(0.0),
             rim_light: rim.light.extend(0.0),
