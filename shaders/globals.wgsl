@@ -16,6 +16,8 @@ struct Globals {
     clip_from_head: mat4x4<f32>,
     // Texture coordinates and depth in the key light's map.
     shadow_from_head: mat4x4<f32>,
+    // The same of the rim light.
+    rim_from_head: mat4x4<f32>,
     // The eye point and 1, or the direction towards a parallel camera and 0.
     eye: vec4<f32>,
     // Unit directions towards the lights, and upwards in the world; all in the head's frame.
@@ -31,7 +33,8 @@ struct Globals {
     measures: vec4<f32>,
     // Width and height in pixels, and one over each.
     viewport: vec4<f32>,
-    // How much of the haired skin is covered by strands, 0 to 1; what surfaces are made of; exposure.
+    // How much of the haired skin is covered by strands, 0 to 1; what surfaces are made of; exposure; how dark the head's
+    // shadow on the ground is.
     coat: vec4<f32>,
     // Light of the lamps, linear.
     key_light: vec4<f32>,
@@ -42,6 +45,9 @@ struct Globals {
     horizon: vec4<f32>,
     ground: vec4<f32>,
     gathered: array<vec4<f32>, 3>,
+    // The point of the ground below the head, head's frame (m), and how far the shadow reaches from it.
+    floor: vec4<f32>,
+    head_from_clip: mat4x4<f32>,
     eyes: array<Eyeball, 2>,
 }
 @group(0) @binding(0) var<uniform> globals: Globals;

@@ -43,10 +43,17 @@ fn wrapped(normal: vec3<f32>, light: vec3<f32>, wrap: f32) -> f32 {
     return max(dot(normal, light) + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap));
 }
 
-// A shoulder that starts late and never clips; the toe keeps dark coats dark. Colours are bent by their brightest
+// Light that comes through from behind `depth` metres of flesh: red gets farthest.
+fn transmitted(depth: f32) -> vec3<f32> {
+    return exp(-max(depth, 0.0) * vec3<f32>(260.0, 850.0, 1150.0));
+}
+
+// A shoulder that starts late and never clips; below it a lift of what is nearly black, in which dark coats keep their form. Colours are bent by their brightest
 // channel in part, so that pale coats keep their hue.
 fn film(light: vec3<f32>) -> vec3<f32> {
-    let x = max(light, vec3<f32>(0.0)) * (0.62 * globals.coat.z);
+    let seen = max(light, vec3<f32>(0.0)) * (0.62 * globals.coat.z);
+    let brightest = max(seen.r, max(seen.g, seen.b));
+    let x = seen * (1.0 + 0.45 * exp(-brightest / 0.06));
     let each = x * (1.0 + x * 0.09) / (1.0 + x * 0.78);
     let peak = max(max(x.r, x.g), max(x.b, 1e-5));
     let bent = peak * (1.0 + peak * 0.09) / (1.0 + peak * 0.78);

@@ -6,6 +6,7 @@
 @group(1) @binding(1) var shadow_sampler: sampler_comparison;
 @group(1) @binding(2) var noise_block: texture_3d<f32>;
 @group(1) @binding(3) var noise_sampler: sampler;
+@group(1) @binding(4) var rim_map: texture_depth_2d;
 
 // What the run is made of. One pipeline for each, since software drivers walk through every branch they are given.
 override kind: u32 = 0u;
@@ -19,13 +20,10 @@ const LIP: u32 = 2u;
 const MOUTH: u32 = 3u;
 const EYE: u32 = 4u;
 const CAP: u32 = 5u;
-const BONE: u32 = 6u;
-const TOOTH: u32 = 7u;
-// Gums and third eyelids.
-const GUM: u32 = 8u;
-const TONGUE: u32 = 9u;
-const TEARS: u32 = 10u;
-const WHISKER: u32 = 11u;
+// Bone, teeth, gums, third eyelids, whiskers.
+const SMOOTH: u32 = 6u;
+const TONGUE: u32 = 7u;
+const TEARS: u32 = 8u;
 
 struct Vertex {
     @location(0) position: vec3<f32>,
@@ -59,8 +57,9 @@ struct Point {
     normal: vec3<f32>,
     // Towards the camera.
     view: vec3<f32>,
-    // Of the key light that arrives, 0 to 1.
+    // Of the key light that arrives, 0 to 1, and of the rim light.
     lit: f32,
+    rim: f32,
     // Of the sky that is seen, 0 to 1.
     open: f32,
 }
@@ -86,6 +85,29 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
     return sum / 10.0;
 }
 
+// How much of the rim light reaches a place.
+fn rim_shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let slope = 1.0 - max(dot(normal, globals.rim.xyz), 0.0);
+    let out = position + normal * globals.measures.x * (0.003 + 0.006 * slope);
+    let place = globals.rim_from_head * vec4<f32>(out, 1.0);
+    return textureSampleCompareLevel(rim_map, shadow_sampler, place.xy, place.z - 0.003);
+}
+
+// Light that shines through thin flesh from behind: through as much of it as lies between the lamp's map and the place
+// (Dachsbacher and Stamminger 2003, "Translucent shadow maps").
+fn glow(p: Point, colour: vec3<f32>) -> vec3<f32> {
+    let depth = 1.02 * globals.measures.x;
+    let by_key = globals.shadow_from_head * vec4<f32>(p.position, 1.0);
+    let by_rim = globals.rim_from_head * vec4<f32>(p.position, 1.0);
+    let key_texel = vec2<i32>(by_key.xy * vec2<f32>(textureDimensions(shadow_map)));
+    let rim_texel = vec2<i32>(by_rim.xy * vec2<f32>(textureDimensions(rim_map)));
+    let through_key = transmitted((by_key.z - textureLoad(shadow_map, key_texel, 0)) * depth + 0.0006);
+    let through_rim = transmitted((by_rim.z - textureLoad(rim_map, rim_texel, 0)) * depth + 0.0006);
+    let key = globals.key_light.rgb * through_key * smoothstep(-0.05, 0.6, -dot(p.normal, globals.key.xyz));
+    let rim = globals.rim_light.rgb * through_rim * smoothstep(-0.05, 0.6, -dot(p.normal, globals.rim.xyz));
+    return (key + rim) * sqrt(colour) * 0.9;
+}
+
 // What a mirror would show: the sky, a soft box for the key light, a narrow one for the rim.
 fn studio(direction: vec3<f32>, blur: f32) -> vec3<f32> {
     let key = smoothstep(0.90 - blur, 0.985, dot(direction, globals.key.xyz));
@@ -97,7 +119,7 @@ fn studio(direction: vec3<f32>, blur: f32) -> vec3<f32> {
 fn diffuse(p: Point, wrap: f32) -> vec3<f32> {
     let key = globals.key_light.rgb * wrapped(p.normal, globals.key.xyz, wrap) * p.lit;
     let fill = globals.fill_light.rgb * wrapped(p.normal, globals.fill.xyz, 0.5) * p.open;
-    let rim = globals.rim_light.rgb * wrapped(p.normal, globals.rim.xyz, 0.1) * 0.35 * p.open;
+    let rim = globals.rim_light.rgb * wrapped(p.normal, globals.rim.xyz, 0.1) * 0.45 * p.open * p.rim;
     return key + fill + rim + gathered(p.normal) * p.open;
 }
 
@@ -217,7 +239,7 @@ fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
 
     // Tips that stand off the outline catch what comes from behind and above.
     let edge = pow(1.0 - facing, 3.0);
-    let behind = globals.rim_light.rgb * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
+    let behind = globals.rim_light.rgb * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0) * mix(0.3, 1.0, p.rim);
     let tips = mix(albedo, vec3<f32>(1.0), 0.12) * (1.0 + 0.35 * fine.x);
     light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + globals.key_light.rgb * 0.12 * p.lit) * edge * (fur - cover) * p.open;
     return light;
@@ -243,7 +265,7 @@ fn moisture(p: Point, gloss: f32) -> vec3<f32> {
     let mirror = reflect(-p.view, p.normal);
     let key = globals.key_light.rgb * p.lit;
     let film = key * (lobe(p, globals.key.xyz, 0.5) * 1.5 + lobe(p, globals.key.xyz, 0.22) * gloss);
-    let rim = globals.rim_light.rgb * lobe(p, globals.rim.xyz, 0.35) * 0.6;
+    let rim = globals.rim_light.rgb * p.rim * lobe(p, globals.rim.xyz, 0.35) * 0.6;
     return (film + rim + studio(mirror, 0.5) * fresnel(dot(p.view, p.normal)) * 0.6) * gloss * p.open;
 }
 
@@ -263,7 +285,7 @@ fn leather(at: Point, colour: vec3<f32>, gloss: f32, rest: vec3<f32>, relief: f3
     let broad = lobe(p, globals.key.xyz, 0.55) * 2.0;
     let sharp = lobe(p, globals.key.xyz, roughness);
     light += globals.key_light.rgb * p.lit * wet * furrow * (broad + sharp);
-    light += globals.rim_light.rgb * wet * (lobe(p, globals.rim.xyz, 0.35) + 0.5 * lobe(p, globals.rim.xyz, 0.6));
+    light += globals.rim_light.rgb * p.rim * wet * (lobe(p, globals.rim.xyz, 0.35) + 0.5 * lobe(p, globals.rim.xyz, 0.6));
     light += globals.fill_light.rgb * wet * lobe(p, globals.fill.xyz, 0.4);
     let mirror = reflect(-p.view, unit(mix(p.normal, smooth_normal, 0.4), p.normal));
     light += studio(mirror, 0.5) * wet * furrow * fresnel(dot(p.view, p.normal)) * 0.7;
@@ -437,7 +459,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         normal = -normal;
     }
     let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
-    let point = Point(in.position, normal, view, shadow(in.position, normal), open);
+    let point = Point(in.position, normal, view, shadow(in.position, normal), rim_shadow(in.position, normal), open);
     let colour = max(in.colour, vec3<f32>(0.0));
     let fur = clamp(in.surface.x, 0.0, 1.0);
     let gloss = clamp(in.surface.y, 0.0, 1.0);
@@ -459,7 +481,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
         case CAP: {
             light = colour * diffuse(point, 0.3);
         }
-        case BONE, TOOTH, WHISKER, GUM: {
+        case SMOOTH: {
             light = colour * diffuse(point, 0.2) + moisture(point, gloss);
         }
         case TONGUE: {
@@ -472,6 +494,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
             light = coat(point, colour, in.flow, fur);
             // Bare or moist margins shade off into the coat.
             light += moisture(point, gloss * (1.0 - fur));
+            light += glow(point, colour);
         }
     }
     if is_made_of(CLAY) {

@@ -38,6 +38,7 @@ struct Root {
 @group(1) @binding(10) var shadow_sampler: sampler_comparison;
 @group(1) @binding(11) var noise_block: texture_3d<f32>;
 @group(1) @binding(12) var noise_sampler: sampler;
+@group(1) @binding(13) var rim_map: texture_depth_2d;
 
 // As in strand_pass.rs.
 const POINTS: u32 = 6u;
@@ -117,17 +118,46 @@ fn sine(cosine: f32) -> f32 {
     return sqrt(max(1.0 - cosine * cosine, 0.0));
 }
 
-// Light that leaves a hair towards the camera. `heading`: along the hair; `t`: from root to tip.
-fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t: f32, hidden: f32, lit: f32, random: vec4<f32>) -> vec3<f32> {
+// How much of the rim light reaches a strand, and what of it comes through the skin below: see `glow` of mesh.wgsl.
+struct Behind {
+    lit: f32,
+    through: vec3<f32>,
+}
+
+fn from_behind(place: vec3<f32>, normal: vec3<f32>) -> Behind {
+    let in_map = globals.rim_from_head * vec4<f32>(place, 1.0);
+    let texel = vec2<i32>(in_map.xy * vec2<f32>(textureDimensions(rim_map)));
+    let depth = in_map.z - textureLoad(rim_map, texel, 0);
+    let through = transmitted(depth * 1.02 * globals.measures.x) * smoothstep(-0.05, 0.6, -dot(normal, globals.rim.xyz));
+    return Behind(1.0 - smoothstep(0.002, 0.007, depth), globals.rim_light.rgb * through);
+}
+
+// Light that leaves a hair towards the camera. `heading`: along the hair; `t`: from root to tip; `deep`: how low it lies
+// among its neighbours, 0 to 1; `lit`: of the key light.
+fn lit_hair(
+    s: Strand,
+    albedo: vec3<f32>,
+    heading: vec3<f32>,
+    view: vec3<f32>,
+    t: f32,
+    deep: f32,
+    hidden: f32,
+    lit: f32,
+    behind: Behind,
+    random: vec4<f32>,
+) -> vec3<f32> {
     let n = unit(s.normal + heading * 0.15, s.normal);
     let key = globals.key.xyz;
-    // Deep in the coat it is dark.
-    let open = (1.0 - 0.9 * hidden) * mix(0.65, 1.1, t);
+    // What lies over a point of the hair, as a part of the coat, takes light away: the more the flatter the light comes in.
+    let covered = (1.0 - t) * (0.30 + 0.70 * deep);
+    let open = (1.0 - 0.9 * hidden) * mix(1.08, 0.42, covered);
+    let reached_key = lit * exp(-0.42 * covered / max(dot(s.normal, key), 0.22)) * 1.12;
     let fibre = mix(0.85, 1.2, sine(dot(heading, key)));
-    var light = globals.key_light.rgb * wrapped(n, key, 0.40) * fibre * lit * mix(0.85, 1.1, t);
+    var light = globals.key_light.rgb * wrapped(n, key, 0.40) * fibre * reached_key;
     light += globals.fill_light.rgb * wrapped(n, globals.fill.xyz, 0.5) * open;
-    light += globals.rim_light.rgb * wrapped(n, globals.rim.xyz, 0.1) * 0.35 * open;
+    light += globals.rim_light.rgb * wrapped(n, globals.rim.xyz, 0.1) * 0.45 * open * behind.lit;
     light += gathered(n) * open;
+    light += behind.through * 0.45;
     light *= albedo;
 
     // Two highlights along the hair, after Kajiya and Kay (1989) and the shifts of Scheuermann (2004): one of the light
@@ -137,15 +167,18 @@ fn lit_hair(s: Strand, albedo: vec3<f32>, heading: vec3<f32>, view: vec3<f32>, t
     let first = sine(dot(unit(heading + s.normal * (0.08 + 0.10 * random.z), heading), half_way));
     let second = sine(dot(unit(heading - s.normal * (0.14 + 0.10 * random.w), heading), half_way));
     let brightness = dot(albedo, vec3<f32>(0.3, 0.6, 0.1));
-    let pale = mix(0.45, 1.0, smoothstep(0.01, 0.25, brightness));
+    let pale = mix(0.5, 1.0, smoothstep(0.01, 0.25, brightness));
     let gleam = vec3<f32>(0.035 * pale) * pow(first, 40.0) + (albedo * 0.20 + 0.006 * pale) * pow(second, 9.0);
-    let reached = lit * clamp(dot(s.normal, key) * 1.5 + 0.2, 0.0, 1.0) * mix(0.3, 1.0, t);
+    let reached = reached_key * clamp(dot(s.normal, key) * 1.5 + 0.2, 0.0, 1.0) * mix(0.3, 1.0, t) * (1.0 - 0.6 * deep);
     light += globals.key_light.rgb * gleam * gloss * reached;
+    let behind_half = unit(view + globals.rim.xyz, n);
+    let rim_gleam = pow(sine(dot(heading, behind_half)), 24.0) * clamp(dot(s.normal, globals.rim.xyz) + 0.2, 0.0, 1.0);
+    light += globals.rim_light.rgb * (0.010 * pale) * rim_gleam * gloss * behind.lit * (1.0 - hidden) * t;
 
     // Tips before the light shine through.
     let edge = pow(1.0 - clamp(dot(s.normal, view), 0.0, 1.0), 3.0);
-    let behind = globals.rim_light.rgb * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0);
-    light += mix(albedo, vec3<f32>(1.0), 0.08) * (behind * 0.5 + globals.key_light.rgb * 0.08 * lit) * edge * t * (1.0 - hidden);
+    let from_rim = globals.rim_light.rgb * max(dot(s.normal, globals.rim.xyz) * 0.6 + 0.4, 0.0) * mix(0.25, 1.0, behind.lit);
+    light += mix(albedo, vec3<f32>(1.0), 0.08) * (from_rim * 0.5 + globals.key_light.rgb * 0.08 * lit) * edge * t * (1.0 - hidden);
     return light;
 }
 
@@ -242,10 +275,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     albedo *= mix(mix(0.85, 0.62, smoothstep(0.002, 0.015, s.length)), 1.18, t);
     let reach = skin + s.normal * (0.004 * globals.measures.x + 0.5 * s.length * s.lift);
     let lit = shadow(reach, other);
+    let behind = from_behind(reach, s.normal);
+    // Strands and locks that lie lower than those beside them.
+    let deep = clamp(0.45 - 0.85 * lock.y - 0.30 * signed.z, 0.0, 1.0) * clamp(s.length / 0.008, 0.35, 1.0);
     if is_made_of(CLAY) {
         albedo = CLAY_COLOUR;
     }
-    var light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, clamp(grown.z, 0.0, 1.0), lit, random);
+    var light = lit_hair(s, min(albedo, vec3<f32>(0.95)), heading, view, t, deep, clamp(grown.z, 0.0, 1.0), lit, behind, random);
     if is_made_of(INK) {
         light = vec3<f32>(0.0);
     }

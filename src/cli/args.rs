@@ -130,7 +130,7 @@ pub(super) struct Detail {
 }
 
 /// From where and before what it is drawn.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Copy, Debug)]
 pub(super) struct Scene {
     /// How far the nose is carried below the horizontal, degrees; each view has its own habit
     #[arg(long, value_name = "DEG", value_parser = values::pitch, allow_hyphen_values = true)]
@@ -258,6 +258,9 @@ pub(super) struct Sheet {
     /// Heads beside each other
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub columns: u32,
+    /// Show every head once in each of these presets, with commas between, instead of in one
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', conflicts_with = "preset")]
+    pub presets: Vec<Preset>,
     /// Let every head fill its cell instead of sharing one scale
     #[arg(long)]
     pub fit: bool,

@@ -77,34 +77,39 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let breeds: Vec<Breed> =
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    let layers = layers(&args.scene);
-    pipeline.set_layers(layers).map_err(Failure::work)?;
-    let n_strands = hair(&args.scene, SHEET_HAIR);
-    pipeline.set_hair(n_strands as usize);
+    let presets = if args.presets.is_empty() { vec![args.scene.preset] } else { args.presets.clone() };
     pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {
         Some(size) => {
             let across = args.columns as usize;
-            Sheet::cell_within(size, breeds.len().div_ceil(across), args.views.len() * args.dress.len().max(1) * across)
+            let columns = args.views.len() * args.dress.len().max(1) * across;
+            Sheet::cell_within(size, (breeds.len() * presets.len()).div_ceil(across), columns)
         }
         None => [CELL, CELL],
     };
     let Scene { pitch, lens, .. } = args.scene;
     let mut sheet = Sheet::new(args.views.clone(), cell, args.fit, lens, pitch, background(&args.scene));
-    sheet.skin_opacity = layers.skin;
-    sheet.preset = args.scene.preset;
     sheet.samples = args.scene.samples.unwrap_or_default();
     sheet.shading = shading(&args.scene);
-    sheet.n_strands = n_strands;
     sheet.heads_across = args.columns;
     sheet.dresses.clone_from(&args.dress);
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
     }
-    for breed in &breeds {
-        sheet.add_row(&mut offscreen, &pipeline.update(breed), &breed.label).map_err(Failure::work)?;
+    for preset in presets {
+        let scene = Scene { preset, ..args.scene };
+        let layers = layers(&scene);
+        pipeline.set_layers(layers).map_err(Failure::work)?;
+        let n_strands = hair(&scene, SHEET_HAIR);
+        pipeline.set_hair(n_strands as usize);
+        (sheet.preset, sheet.background) = (preset, background(&scene));
+        (sheet.skin_opacity, sheet.n_strands) = (layers.skin, n_strands);
+        for breed in &breeds {
+            let name = if args.presets.is_empty() { &breed.label } else { preset.name() };
+            sheet.add_row(&mut offscreen, &pipeline.update(breed), name).map_err(Failure::work)?;
+        }
     }
     let mut picture = sheet.finish();
     if let Some(size) = args.size {

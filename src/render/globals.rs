@@ -13,6 +13,7 @@ use glam::{Mat4, Vec3, Vec4};
 pub(super) struct Globals {
     clip_from_head: Mat4,
     shadow_from_head: Mat4,
+    rim_from_head: Mat4,
     eye: Vec4,
     key: Vec4,
     fill: Vec4,
@@ -22,7 +23,8 @@ pub(super) struct Globals {
     background_bottom: Vec4,
     measures: Vec4,
     viewport: Vec4,
-    /// How much of the haired skin is covered by strands, 0 to 1; which [`Stuff`](super::preset::Stuff) surfaces are of; exposure; free.
+    /// How much of the haired skin is covered by strands, 0 to 1; which [`Stuff`](super::preset::Stuff) surfaces are of; exposure; how
+    /// dark the head's shadow on the ground is.
     pub(super) coat: Vec4,
     key_light: Vec4,
     fill_light: Vec4,
@@ -31,6 +33,8 @@ pub(super) struct Globals {
     horizon: Vec4,
     ground: Vec4,
     gathered: [Vec4; 3],
+    floor: Vec4,
+    head_from_clip: Mat4,
     /// The left one and the right.
     eyes: [EyeBlock; 2],
 }
@@ -73,15 +77,18 @@ pub(super) struct Extent {
     pub radius: f32,
     /// How far hair may reach out of it, metres.
     pub margin: f32,
+    /// How far the lowest point lies below its centre as the head is carried, metres.
+    pub below: f32,
 }
 
 impl Extent {
     /// Around the box between two corners; an empty box gives a small sphere at the origin.
     pub(super) fn of_box((low, high): (Vec3, Vec3)) -> Self {
         if !(low.is_finite() && high.is_finite()) {
-            return Self { centre: Vec3::ZERO, radius: 0.1, margin: 0.0 };
+            return Self { centre: Vec3::ZERO, radius: 0.1, margin: 0.0, below: 0.1 };
         }
-        Self { centre: (low + high) * 0.5, radius: ((high - low).length() * 0.5).max(1e-3), margin: 0.0 }
+        let radius = ((high - low).length() * 0.5).max(1e-3);
+        Self { centre: (low + high) * 0.5, radius, margin: 0.0, below: radius }
     }
 }
 
@@ -99,7 +106,7 @@ impl Globals {
         skin_opacity: f32,
         preset: Preset,
     ) -> Self {
-        let Lights { key: key_lamp, fill, rim, sky, exposure } = preset.lights();
+        let Lights { key: key_lamp, fill, rim, sky, exposure, contact } = preset.lights();
         let [width, height] = size.map(|s| s.max(1) as f32);
         let head_from_world = camera.world_from_head().transpose();
         let towards = |lamp: &Lamp| {
@@ -110,23 +117,30 @@ impl Globals {
             let direction = Vec3::new(across * level, height, forward * level);
             (head_from_world * direction).extend(0.0)
         };
-        let key = towards(key_lamp);
+        let [key, behind] = [key_lamp, rim].map(towards);
+        let up = head_from_world * Vec3::Y;
+        let clip_from_head = camera.clip_from_head(width / height, reach(camera, extent));
         let (eye, perspective) = camera.eye_in_head();
-        let reach = extent.radius + extent.margin + (camera.world_from_head() * extent.centre - camera.target).length();
         let pixel = camera.height_at_target() / height;
         Self {
-            clip_from_head: camera.clip_from_head(width / height, reach),
+            clip_from_head,
             shadow_from_head: shadow_from_head(key.truncate(), extent),
+            rim_from_head: shadow_from_head(behind.truncate(), extent),
             eye: eye.extend(perspective),
             key,
             fill: towards(fill),
-            rim: towards(rim),
-            up: (head_from_world * Vec3::Y).extend(0.0),
+            rim: behind,
+            up: up.extend(0.0),
             background_top: background[0],
             background_bottom: background[1],
             measures: Vec4::new(2.0 * extent.radius, pixel, 1.0 / shadow_texels as f32, skin_opacity),
             viewport: Vec4::new(width, height, 1.0 / width, 1.0 / height),
-            coat: Vec4::new(0.0, f32::from(preset.stuff() as u8), *exposure, 0.0),
+            coat: Vec4::new(
+                0.0,
+                f32::from(preset.stuff() as u8),
+                *exposure,
+                if preset.has_ground() { *contact } else { 0.0 },
+            ),
             key_light: key_lamp.light.extend(0.0),
             fill_light: fill.light.extend(0.0),
             rim_light: rim.light.extend(0.0),
@@ -134,6 +148,8 @@ impl Globals {
             horizon: sky.horizon.extend(0.0),
             ground: sky.ground.extend(0.0),
             gathered: sky.gathered().map(|light| light.extend(0.0)),
+            floor: (extent.centre - up * extent.below).extend(1.6 * extent.radius),
+            head_from_clip: clip_from_head.inverse(),
             eyes: Default::default(),
         }
     }
@@ -144,6 +160,11 @@ impl Globals {
             *block = EyeBlock::of(eyeball);
         }
     }
+}
+
+/// Of a sphere around the camera's target that holds all that is drawn, metres.
+fn reach(camera: &Camera, extent: Extent) -> f32 {
+    extent.radius + extent.margin + (camera.world_from_head() * extent.centre - camera.target).length()
 }
 
 /// Texture coordinates and depth in the key light's map: a parallel projection around the extent.
@@ -164,7 +185,7 @@ mod tests {
 
     #[test]
     fn the_shadow_map_holds_the_whole_sphere() {
-        let extent = Extent { centre: Vec3::new(0.01, 0.02, 0.05), radius: 0.2, margin: 0.0 };
+        let extent = Extent { centre: Vec3::new(0.01, 0.02, 0.05), radius: 0.2, margin: 0.0, below: 0.2 };
         let key = Vec3::new(-0.5, 0.6, 0.6).normalize_or_zero();
         let shadow = shadow_from_head(key, extent);
         for direction in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z, key, -key] {
@@ -180,7 +201,7 @@ mod tests {
         for view in View::NAMED {
             let mut camera = Camera::at(view, None, Lens::default());
             camera.elevation = camera.elevation.min(0.5);
-            let extent = Extent { centre: Vec3::ZERO, radius: 0.1, margin: 0.0 };
+            let extent = Extent { centre: Vec3::ZERO, radius: 0.1, margin: 0.0, below: 0.1 };
             let globals = Globals::new(&camera, extent, [64, 64], 0.0, 1024, [Vec4::ONE; 2], 1.0, Preset::Studio);
             let key = camera.world_from_head() * globals.key.truncate();
             let [right, up, _] = camera.axes_in_world();

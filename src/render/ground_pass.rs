@@ -34,7 +34,10 @@ impl Background {
     }
 }
 
-/// One triangle over the whole picture.
+/// Cells of the picture a side; `background.wgsl` knows it too.
+const CELLS: u32 = 64;
+
+/// A grid over the whole picture, since the head's shadow on the ground is worked out at its corners.
 #[derive(Debug)]
 pub(super) struct GroundPass {
     pipeline: wgpu::RenderPipeline,
@@ -45,11 +48,12 @@ impl GroundPass {
         device: &wgpu::Device,
         sources: &ShaderSources,
         globals: &wgpu::BindGroupLayout,
+        lit: &wgpu::BindGroupLayout,
     ) -> Result<Self, ShaderError> {
         let module = sources.compile(device, ShaderFile::Background)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("ground"),
-            bind_group_layouts: &[Some(globals)],
+            bind_group_layouts: &[Some(globals), Some(lit)],
             immediate_size: 0,
         });
         let pipeline = build_checked(device, ShaderFile::Background, || {
@@ -78,9 +82,10 @@ impl GroundPass {
         Ok(Self { pipeline })
     }
 
-    /// Draws over everything; the globals are bound as group 0.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Draws over everything; the globals are bound as group 0. `lit`: shadow maps and noise.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, lit: &wgpu::BindGroup) {
+        pass.set_bind_group(1, lit, &[]);
         pass.set_pipeline(&self.pipeline);
-        pass.draw(0..3, 0..1);
+        pass.draw(0..6 * CELLS * CELLS, 0..1);
     }
 }

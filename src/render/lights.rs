@@ -23,6 +23,8 @@ pub(super) struct Lights {
     pub(super) sky: Sky,
     /// What the film makes of all of it.
     pub(super) exposure: f32,
+    /// How dark the head's shadow on the ground is, 0 to 1.
+    pub(super) contact: f32,
 }
 
 const fn lamp(azimuth: f32, elevation: f32, light: [f32; 3]) -> Lamp {
@@ -40,6 +42,7 @@ impl Lights {
         rim: lamp(152.0, 38.0, [1.75, 1.80, 1.95]),
         sky: sky([0.46, 0.51, 0.60], [0.27, 0.29, 0.31], [0.16, 0.135, 0.11]),
         exposure: 1.0,
+        contact: 0.55,
     };
 
     pub(super) const DAYLIGHT: Self = Self {
@@ -48,6 +51,7 @@ impl Lights {
         rim: lamp(160.0, 30.0, [0.55, 0.62, 0.75]),
         sky: sky([0.34, 0.54, 0.92], [0.62, 0.68, 0.74], [0.26, 0.25, 0.17]),
         exposure: 0.95,
+        contact: 0.5,
     };
 
     pub(super) const CLAY: Self = Self {
@@ -56,6 +60,7 @@ impl Lights {
         rim: lamp(150.0, 34.0, [1.0, 1.05, 1.15]),
         sky: sky([0.42, 0.44, 0.48], [0.26, 0.26, 0.27], [0.14, 0.13, 0.12]),
         exposure: 1.0,
+        contact: 0.55,
     };
 
     /// No shadow may pass for an edge: all comes from all sides, and a little from the camera.
@@ -65,5 +70,6 @@ impl Lights {
         rim: lamp(180.0, 60.0, [0.0, 0.0, 0.0]),
         sky: sky([1.30, 1.30, 1.30], [1.22, 1.22, 1.22], [1.06, 1.06, 1.06]),
         exposure: 1.0,
+        contact: 0.0,
     };
 }

@@ -5,9 +5,12 @@ use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked
 use super::targets::{COLOUR, depth, samples};
 use super::{noise, shadow_pass::ShadowPass};
 use crate::frame::Material;
+use std::sync::OnceLock;
 
 /// Ways of shading, one pipeline each: the numbers of `mesh.wgsl`.
-const KINDS: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+const KINDS: [u32; 9] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+/// Those of them that skin is shaded in.
+const SKIN_KINDS: [u32; 5] = [0, 1, 2, 3, 5];
 
 /// How much work a pixel is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,12 +31,9 @@ fn kind(material: Material) -> u32 {
         Material::Mouth => 3,
         Material::Sclera | Material::Iris | Material::Pupil => 4,
         Material::Cap => 5,
-        Material::Bone => 6,
-        Material::Tooth => 7,
-        Material::Gum | Material::ThirdEyelid => 8,
-        Material::Tongue => 9,
-        Material::Tears => 10,
-        Material::Whisker => 11,
+        Material::Bone | Material::Tooth | Material::Gum | Material::ThirdEyelid | Material::Whisker => 6,
+        Material::Tongue => 7,
+        Material::Tears => 8,
     }
 }
 
@@ -43,18 +43,25 @@ pub(super) fn is_skin(material: Material) -> bool {
     matches!(material, Coat | Nose | Lip | Mouth | Cap)
 }
 
-/// A pipeline for each way of shading, solid and seen through, and bindings that do not change with the head.
+/// A pipeline for each way of shading, those of the skin seen through too, and bindings that do not change with the head.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    pipelines: [[wgpu::RenderPipeline; KINDS.len()]; 2],
-    bindings: wgpu::BindGroup,
+    solid: [wgpu::RenderPipeline; KINDS.len()],
+    /// In the order of [`SKIN_KINDS`]; made when first asked for, from what the others have proved right.
+    clear: OnceLock<[wgpu::RenderPipeline; SKIN_KINDS.len()]>,
+    module: wgpu::ShaderModule,
+    pipeline_layout: wgpu::PipelineLayout,
+    quality: Quality,
+    pub(super) layout: wgpu::BindGroupLayout,
+    pub(super) bindings: wgpu::BindGroup,
     shared: Shared,
 }
 
-/// Shadow map and noise, each with its sampler.
+/// Shadow maps and noise, with their samplers.
 #[derive(Debug)]
 struct Shared {
     shadow: wgpu::TextureView,
+    rim: wgpu::TextureView,
     comparison: wgpu::Sampler,
     noise: wgpu::TextureView,
     repeating: wgpu::Sampler,
@@ -62,7 +69,7 @@ struct Shared {
 
 impl MeshPass {
     /// Types of [`MeshPass::resources`].
-    pub(super) const RESOURCE_TYPES: [wgpu::BindingType; 4] = {
+    pub(super) const RESOURCE_TYPES: [wgpu::BindingType; 5] = {
         const fn texture(
             sample_type: wgpu::TextureSampleType,
             view_dimension: wgpu::TextureViewDimension,
@@ -74,11 +81,12 @@ impl MeshPass {
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
             texture(wgpu::TextureSampleType::Float { filterable: true }, wgpu::TextureViewDimension::D3),
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+            texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
         ]
     };
 
-    /// Shadow map, its sampler, noise, its sampler: for who lights something else alike.
-    pub(super) fn resources(&self) -> [wgpu::BindingResource<'_>; 4] {
+    /// The key light's shadow map, its sampler, noise, its sampler, the rim light's shadow map: for who lights something else alike.
+    pub(super) fn resources(&self) -> [wgpu::BindingResource<'_>; 5] {
         self.shared.resources()
     }
 
@@ -97,16 +105,36 @@ impl MeshPass {
             immediate_size: 0,
         });
         let module = sources.compile(device, ShaderFile::Mesh)?;
-        let pipelines = build_checked(device, ShaderFile::Mesh, || {
-            [false, true].map(|clear| KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, clear)))
+        let solid = build_checked(device, ShaderFile::Mesh, || {
+            KINDS.map(|kind| pipeline(device, &module, &layout, kind, quality, false))
         })?;
         let shared = Shared::new(device, queue, shadow);
         let bindings = bindings(device, &own, &shared);
-        Ok(Self { pipelines, bindings, shared })
+        Ok(Self {
+            solid,
+            clear: OnceLock::new(),
+            module,
+            pipeline_layout: layout,
+            quality,
+            layout: own,
+            bindings,
+            shared,
+        })
+    }
+
+    fn clear(&self, device: &wgpu::Device) -> &[wgpu::RenderPipeline; SKIN_KINDS.len()] {
+        let make = |kind| pipeline(device, &self.module, &self.pipeline_layout, kind, self.quality, true);
+        self.clear.get_or_init(|| SKIN_KINDS.map(make))
     }
 
     /// Draws every run; the globals are bound as group 0. Skin that is seen through comes last.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, head: &HeadBuffers, clear_skin: bool) {
+    pub(super) fn draw(
+        &self,
+        device: &wgpu::Device,
+        pass: &mut wgpu::RenderPass<'_>,
+        head: &HeadBuffers,
+        clear_skin: bool,
+    ) {
         pass.set_bind_group(1, &self.bindings, &[]);
         let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface, &head.rest];
         for (slot, buffer) in (0..).zip(values) {
@@ -115,7 +143,12 @@ impl MeshPass {
         pass.set_index_buffer(head.indices.slice(..), wgpu::IndexFormat::Uint32);
         for clear in [false, true] {
             for run in head.runs.iter().filter(|run| (clear_skin && is_skin(run.material)) == clear) {
-                pass.set_pipeline(&self.pipelines[usize::from(clear)][kind(run.material) as usize]);
+                let kind = kind(run.material);
+                let pipeline = match SKIN_KINDS.iter().position(|&k| k == kind).filter(|_| clear) {
+                    Some(at) => &self.clear(device)[at],
+                    None => &self.solid[kind as usize],
+                };
+                pass.set_pipeline(pipeline);
                 pass.draw_indexed(run.start..run.start + run.count, 0, 0..1);
             }
         }
@@ -176,7 +209,7 @@ fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         .zip(MeshPass::RESOURCE_TYPES)
         .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty,
             count: None,
         })
@@ -208,15 +241,17 @@ impl Shared {
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
-        Self { shadow: shadow.map.clone(), comparison, noise: noise::texture(device, queue), repeating }
+        let [key, rim] = shadow.maps.clone();
+        Self { shadow: key, rim, comparison, noise: noise::texture(device, queue), repeating }
     }
 
-    fn resources(&self) -> [wgpu::BindingResource<'_>; 4] {
+    fn resources(&self) -> [wgpu::BindingResource<'_>; 5] {
         [
             wgpu::BindingResource::TextureView(&self.shadow),
             wgpu::BindingResource::Sampler(&self.comparison),
             wgpu::BindingResource::TextureView(&self.noise),
             wgpu::BindingResource::Sampler(&self.repeating),
+            wgpu::BindingResource::TextureView(&self.rim),
         ]
     }
 }

@@ -15,6 +15,7 @@ use super::targets::Targets;
 use super::wire_pass::{Lines, WirePass};
 use crate::anatomy::Hair;
 use crate::frame::Frame;
+use glam::Vec3;
 
 /// What is shown of a head.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -108,9 +109,10 @@ impl Passes {
         quality: Quality,
     ) -> Result<Self, ShaderError> {
         let shadow = ShadowPass::new(device, sources, globals)?;
+        let mesh = MeshPass::new(device, queue, sources, globals, &shadow, quality)?;
         Ok(Self {
-            ground: GroundPass::new(device, sources, globals)?,
-            mesh: MeshPass::new(device, queue, sources, globals, &shadow, quality)?,
+            ground: GroundPass::new(device, sources, globals, &mesh.layout)?,
+            mesh,
             wire: WirePass::new(device, sources, globals)?,
             strand: StrandPass::new_if_able(device, queue, sources, globals)?,
             shadow,
@@ -215,6 +217,7 @@ impl Painter {
             self.passes.wire.load(device, queue, frame, lines, drawing.pixels_per_point);
         }
         let mut extent = Extent::of_box(frame.bounds());
+        extent.below = below(frame, &drawing.camera, extent.centre);
         let edges = drawing.background.edges();
         let clear_skin = drawing.skin_opacity < 1.0;
         let coat = frame.coat.filter(|c| drawing.n_strands.min(c.roots.len() as u32) > 0 && !clear_skin);
@@ -229,7 +232,7 @@ impl Painter {
             extent,
             targets.size,
             drawing.light_turn,
-            shadow_pass::TEXELS,
+            shadow_pass::TEXELS[0],
             edges,
             drawing.skin_opacity,
             drawing.preset,
@@ -241,16 +244,23 @@ impl Painter {
         self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin);
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
-        self.passes.ground.draw(&mut pass);
+        self.passes.ground.draw(&mut pass, &self.passes.mesh.bindings);
         // Hair first: what it hides of the skin, which is dearer, is not shaded.
         if let Some(hair) = hair {
             hair.draw(&mut pass);
         }
-        self.passes.mesh.draw(&mut pass, head, clear_skin);
+        self.passes.mesh.draw(device, &mut pass, head, clear_skin);
         if lines.is_some() {
             self.passes.wire.draw(&mut pass);
         }
     }
+}
+
+/// How far the lowest point of a head, as it is carried, lies below another one, metres.
+fn below(frame: &Frame<'_>, camera: &Camera, centre: Vec3) -> f32 {
+    let up = camera.world_from_head().transpose() * Vec3::Y;
+    let points = frame.body().flat_map(|part| part.positions);
+    points.map(|&p| up.dot(centre - p)).fold(0.0, f32::max)
 }
 
 /// The longest hair of a head, metres.

@@ -116,6 +116,11 @@ impl Preset {
         !matches!(self, Self::Clay | Self::Silhouette)
     }
 
+    /// Whether the head throws a shadow on a ground below it.
+    pub(super) const fn has_ground(self) -> bool {
+        matches!(self, Self::Studio | Self::Daylight | Self::Clay)
+    }
+
     pub(super) const fn stuff(self) -> Stuff {
         match self {
             Self::Clay => Stuff::Clay,

@@ -60,7 +60,8 @@ pub struct Sheet {
     fit: bool,
     lens: Lens,
     pitch: Option<f32>,
-    background: Background,
+    /// Behind the heads that are added from now on.
+    pub background: Background,
     /// Of the skin, 0 to 1: 1 unless it is set.
     pub skin_opacity: f32,
     /// Surfaces, or lines over them: surfaces unless it is set.
