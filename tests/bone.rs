@@ -154,11 +154,11 @@ const THIN: &[(&str, f32)] = &[
     ("s.8.", 4.8),
     // Below the ear's base, where the nuchal crest of small lean heads ends.
     ("s.16.6", 4.3),
-    ("s.17.4", 4.0),
+    ("s.17.4", 4.6),
     ("s.16.", 1.5),
     ("s.15.", 2.0),
     ("a0.6", 2.2),
-    ("a0.", 1.2),
+    ("a0.", 1.4),
     ("a1.", 1.2),
     ("a3.6", 0.5),
     // The middle of a tight upper lip, in front of the lower incisors.
@@ -182,7 +182,8 @@ const THIN: &[(&str, f32)] = &[
     // The cheek of toys and of the Pekingese.
     ("s.9.", 2.0),
     ("s.10.", 1.5),
-    ("s.12.6", 2.4),
+    ("s.12.6", 3.2),
+    ("s.13.6", 0.6),
 ];
 
 /// Every vertex of the level-3 skin of every breed and of some blends, but of the mouth's lining, against the bone's

@@ -131,9 +131,11 @@ fn a_plain_ground_has_two_colours_and_a_graded_one_has_one() {
     };
     for preset in Preset::ALL {
         let [a, b, c, d] = edge(&heads.picture(&mut offscreen, &breed, preset, |d| d.background = preset.plain()));
-        assert!(a == b && b == c && c == d, "{}: {a:?} {b:?} {c:?} {d:?}", preset.name());
+        // Below, the head's soft shadow on the ground just reaches the corners.
+        let near = |other: &[u8]| a.iter().zip(other).all(|(a, o)| a.abs_diff(*o) <= 8);
+        assert!(near(&b) && near(&c) && near(&d), "{}: {a:?} {b:?} {c:?} {d:?}", preset.name());
         let [a, b, c, d] = edge(&heads.picture(&mut offscreen, &breed, preset, |d| d.background = preset.gradient()));
-        assert!(a[0] != c[0] && a[0].abs_diff(b[0]) <= 1 && c[0].abs_diff(d[0]) <= 1, "{}", preset.name());
+        assert!(a[0] != c[0] && a[0].abs_diff(b[0]) <= 1 && c[0].abs_diff(d[0]) <= 8, "{}", preset.name());
     }
 }
 

@@ -123,7 +123,8 @@ fn the_texture_is_not_its_own_mirror_image() {
 /// lids, inside the nostrils, under throat and chin, along the border of the ear and in the fold at its base.
 const SEAMS: [(&str, &[&str]); 7] = [
     ("ventral midline", &["l.3.9..14", "l.3..19.14", "ml.3.1"]),
-    ("lips inside", &["mu.3..10.1", "ml.3..10.1"]),
+    // And along their edge for one step beside the corner of the mouth.
+    ("lips inside", &["mu.3..10.1", "ml.3..10.1", "s.9..10.9", "l.9.9"]),
     ("midline of the mouth's lining", &["mu.3.1..3", "mu.3..10.3", "ml.3.1..3", "ml.3..10.3"]),
     ("lids inside", &["ei.0..11"]),
     ("nostril inside", &["ni.0..9"]),
