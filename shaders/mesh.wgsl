@@ -105,7 +105,7 @@ fn glow(p: Point, colour: vec3<f32>) -> vec3<f32> {
     let through_rim = transmitted((by_rim.z - textureLoad(rim_map, rim_texel, 0)) * depth + 0.0006);
     let key = globals.key_light.rgb * through_key * smoothstep(-0.05, 0.6, -dot(p.normal, globals.key.xyz));
     let rim = globals.rim_light.rgb * through_rim * smoothstep(-0.05, 0.6, -dot(p.normal, globals.rim.xyz));
-    return (key + rim) * sqrt(colour) * 0.9;
+    return (key + rim) * sqrt(colour) * 0.6;
 }
 
 // What a mirror would show: the sky, a soft box for the key light, a narrow one for the rim.
@@ -494,7 +494,8 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
             light = coat(point, colour, in.flow, fur);
             // Bare or moist margins shade off into the coat.
             light += moisture(point, gloss * (1.0 - fur));
-            light += glow(point, colour);
+            // Hair keeps most of it to itself.
+            light += glow(point, colour) * (1.0 - 0.7 * fur);
         }
     }
     if is_made_of(CLAY) {
