@@ -23,6 +23,8 @@ pub struct Space {
     mean: Vec<f64>,
     /// For each row one number per breed: its distance from the mean, divided by √(n - 1).
     factor: Vec<Vec<f64>>,
+    /// Least and greatest coordinate of a breed, one pair per row.
+    span: Vec<[f64; 2]>,
 }
 
 /// Why there is no space.
@@ -48,13 +50,15 @@ impl Space {
             return Err(SpaceError::TooFew(n));
         }
         let points: Vec<Vec<f64>> = breeds.iter().map(|breed| chart.point(&breed.values)).collect();
-        let (mut mean, mut factor) = (Vec::new(), Vec::new());
+        let (mut mean, mut factor, mut span) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..table.specs.len() {
             let middle = points.iter().map(|p| p[row]).sum::<f64>() / n as f64;
             mean.push(middle);
             factor.push(points.iter().map(|p| (p[row] - middle) / ops::sqrt((n - 1) as f64)).collect());
+            let of_breeds = points.iter().map(|p| p[row]);
+            span.push([of_breeds.clone().fold(f64::INFINITY, f64::min), of_breeds.fold(f64::NEG_INFINITY, f64::max)]);
         }
-        Ok(Self { chart, mean, factor })
+        Ok(Self { chart, mean, factor, span })
     }
 
     /// The coordinates of a dog: one per row of the table; `values` are SI, in the same order.
@@ -72,13 +76,15 @@ impl Space {
         self.dog(table, &self.mean)
     }
 
-    /// A dog drawn from the covariance of the breeds, cut off at the ends of each range, with the hair of one of `coats`
+    /// A dog drawn from the covariance of the breeds, cut off at the most extreme of them (an ear's fold slants as in rose
+    /// ears or not at all, but a normal deviate has two sides) and at the ends of each range, with the hair of one of `coats`
     /// (the default where there is none) in colours that genes allow. What `locks` name is `base`'s, bit for bit; the rest is drawn as it goes
     /// with that: a long ear that is kept asks for a head that goes with long ears.
     pub fn random(&self, table: &ParamTable, coats: &[Breed], base: &Breed, locks: &Locks, rng: &mut Rng) -> Breed {
         let mut deviates: Vec<f64> = (0..self.factor.first().map_or(0, Vec::len)).map(|_| rng.normal()).collect();
         self.condition(base, locks, &mut deviates, rng);
-        let point: Vec<f64> = self.mean.iter().zip(&self.factor).map(|(m, row)| m + dot(row, &deviates)).collect();
+        let drawn = self.mean.iter().zip(&self.factor).map(|(m, row)| m + dot(row, &deviates));
+        let point: Vec<f64> = drawn.zip(&self.span).map(|(x, [low, high])| x.clamp(*low, *high)).collect();
         let mut dog = self.dog(table, &point);
         let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair);
         dog.look = Look { hair, ..Look::of(random_pattern(rng)) };

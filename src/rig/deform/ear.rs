@@ -187,9 +187,10 @@ fn parts(e: &EarProportions) -> [f32; SECTIONS] {
     })
 }
 
-/// Half the way over which the sheet bends. Leather folds no sharper than its thickness allows.
+/// Half the way over which the sheet bends. Leather folds no sharper than its thickness allows, aslant, where a margin runs
+/// along the fold, less sharp than across.
 fn softness(e: &EarProportions) -> f32 {
-    let least = 1.1 * fold(e) * e.thickness;
+    let least = (1.1 + 0.6 * held(e)) * fold(e) * e.thickness;
     let wanted = e.fold_softness * e.length;
     (wanted * wanted + least * least).sqrt()
 }
@@ -454,7 +455,7 @@ fn lay(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Sectio
 /// Moves what is still in the head out of it, both faces of a place alike, so that the leather keeps its thickness.
 fn clear(e: &EarProportions, head: &Obstacles, base: &Base, sections: &mut [Section; SECTIONS]) {
     for s in sections.iter_mut() {
-        let least = 0.12 + 0.6 * clearance(s.part);
+        let least = 0.12 + 0.6 * clearance(s.part) + 0.2 * s.keep * covers(e);
         for _ in 0..2 {
             let mut push = [Vec3::ZERO; MIDDLE + 1];
             for (column, push) in push.iter_mut().enumerate() {

@@ -24,6 +24,8 @@ const LEAP_RATIO: f32 = 0.9;
 /// Longest leap, head units.
 const LEAP: f32 = 1.5;
 
+const KEEP_EAR: f32 = 0.08;
+
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
 #[derive(Clone, Debug)]
 struct Spread {
@@ -148,6 +150,9 @@ pub struct FitPlan {
     pairs: Vec<(u16, u16, Layer)>,
     free: Vec<u16>,
     orbit: Vec<(u16, u16, u16)>,
+    /// The ear's base, and each free vertex around it with its first and last neighbour on it.
+    ear: [u16; 12],
+    around_ear: Vec<(u16, [u16; 2])>,
     rings: Arc<HalfRings>,
 }
 
@@ -213,8 +218,15 @@ impl FitPlan {
         }
         let orbit = (0..12).filter(|&k| !pinned[handles.orbit[k] as usize]);
         let orbit = orbit.map(|k| (handles.orbit[k], handles.of[k], handles.er[k])).collect();
+        let ear = handles.ear_base;
+        let beside = |&v: &u16| {
+            let mut on_base = ear.iter().copied().filter(|&b| rings.of(v as usize).any(|(u, _)| u == b as usize));
+            let first = on_base.next()?;
+            Some((v, [first, on_base.next_back().unwrap_or(first)]))
+        };
+        let around_ear = free.iter().filter_map(beside).collect();
         let spread = [-1.0, 1.0].map(|sign| Spread::new(rings, &half.midline, &held, sign));
-        Self { spread, pairs, free, orbit, rings: rings.clone() }
+        Self { spread, pairs, free, orbit, ear, around_ear, rings: rings.clone() }
     }
 
     /// Moves the free vertices of `at` (length: the half mesh) from the base by the displacements of the held ones. Those
@@ -259,6 +271,7 @@ impl FitPlan {
                 at[v] = start[v] + (moved[v] + self.rings.mean(v, moved)) * (0.5 * KEEP);
             }
             self.keep_orbit(at, eye_r);
+            self.keep_ear(at);
             self.project(surface, at);
             for &v in &self.free {
                 let v = v as usize;
@@ -280,6 +293,22 @@ impl FitPlan {
             let lack = (0.26 * eye_r).min(0.35 * fold.x) - (at[orbit as usize] - fold).dot(out);
             if lack > 0.0 {
                 at[orbit as usize] += out * lack;
+            }
+        }
+    }
+
+    /// What lies around the ear's base stays so far from it that its triangles are not much smaller than those beside them.
+    fn keep_ear(&self, at: &mut [Vec3]) {
+        let base = self.ear.map(|b| at[b as usize]);
+        let middle = base.iter().sum::<Vec3>() / 12.0;
+        let size = base[0].distance(base[6]);
+        for &(v, sides) in &self.around_ear {
+            let [a, b] = sides.map(|b| at[b as usize]);
+            let near = 0.5 * (a + b);
+            let out = (near - middle).normalize_or_zero();
+            let lack = KEEP_EAR * size - (at[v as usize] - near).dot(out);
+            if lack > 0.0 {
+                at[v as usize] += out * lack;
             }
         }
     }

@@ -31,9 +31,14 @@ fn upper(pins: &Pins, t: f32) -> Vec3 {
     }
     let u = (t - FRONT) / (1.0 - FRONT);
     let corner = vec3(0.9 * w0 + 0.65 * lt, y0, s.corner_z);
-    let raise = (s.muz_w1 / 5.6).min(1.0) * (0.65 + 0.28 * fl) * smoothstep(0.55, 1.0, u);
+    // Where the lip is short it rises as gently.
+    let room = (side.distance(corner) / LONG).min(1.0);
+    let raise = (s.muz_w1 / 5.6).min(1.0) * room * (0.65 + 0.28 * fl) * smoothstep(0.55, 1.0, u);
     side + (corner - side) * u + vec3(0.0, raise, 0.0)
 }
+
+/// Length of the side of a lip whose corner rises in full, head units.
+const LONG: f32 = 5.0;
 
 /// How far the lower lip's margin lies inside the upper's, head units: everywhere, how much more for each unit that the jaw
 /// juts out below it, and before the corner. On the skin of level 2, which is not yet smooth there, it is half as far.

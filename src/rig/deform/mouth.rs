@@ -4,6 +4,9 @@ use super::Pins;
 use super::lips::outwards;
 use glam::{Vec3, vec3};
 
+/// Last step of the upper lip's edge before the corner beside which its lining has its full height, head units.
+const STEP: f32 = 0.9;
+
 pub(super) fn place(pins: &mut Pins) {
     let s = pins.shape;
     let h = pins.handles;
@@ -32,6 +35,7 @@ pub(super) fn place(pins: &mut Pins) {
     // Behind the corner: the upper lining rises beside the lip's inner side, the lower one turns inwards below it.
     // The sharp edge turns round before its control vertex.
     let c = edge[7].lerp(edge[6], 0.55);
+    let k = k.min(edge[7].distance(edge[6]) / STEP);
     let rows = [(0.035, 0.92, 0.16, -0.10), (0.3 * c.x, 0.65, 0.4 * c.x, -0.36), (c.x, 0.60, c.x, -0.50)];
     for (p, (upper, rise, lower, fall)) in rows.into_iter().enumerate() {
         let z = Vec3::Z * (-0.25 * p as f32);
