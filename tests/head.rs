@@ -387,7 +387,7 @@ fn a_slider_at_its_end_is_not_what_authoring_gives() {
     let world = World::embedded();
     let some =
         if sweeps_all() { world.breeds.iter().collect() } else { vec![world.breed("labrador"), world.breed("pug")] };
-    // Two are known: the pug with the lowest tip of a muzzle, and with the shortest cranium.
+    // Two are known: the pug without flews, and with the shortest cranium.
     let bound = Bound { together: 0.06, each: 0.1, exceptions: 8 };
     assert_converged(&world, "ends", bound, some.into_iter().flat_map(|b| world.extremes(b)));
 }
