@@ -7,7 +7,6 @@ mod chart;
 mod colours;
 mod groom;
 mod markings;
-mod noise;
 mod roots;
 
 pub use chart::{Chart, Site};
