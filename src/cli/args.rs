@@ -363,12 +363,17 @@ const MOST_DOGS: i64 = 1000;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     londra export --breed pug -o pug.glb\n  \
+    londra export --breed dalmatian --textures 2048 --threads 2 -o dalmatian.glb\n  \
     londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
 pub(super) struct Export {
     #[command(flatten)]
     pub subject: Subject,
     #[command(flatten)]
     pub detail: Detail,
+    /// Paint the coat, the leather and the eyes into textures of so many texels a side (a power of two, 256 to 4096), instead of
+    /// colours at the vertices
+    #[arg(long, value_name = "SIZE", value_parser = values::texture)]
+    pub textures: Option<u32>,
     /// Who holds the rights, as it shall stand in the file
     #[arg(long, value_name = "TEXT")]
     pub copyright: Option<String>,

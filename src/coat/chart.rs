@@ -65,6 +65,12 @@ impl Chart {
         Site { place: self.place[v], ear: self.ear[v], flow: self.flow[v], hair: None }
     }
 
+    /// The site of a place between vertices: the mean of theirs, by weight. The skin itself, no hair.
+    pub fn between(&self, place: &[(usize, f32)]) -> Site {
+        let mixed = |values: &[Vec3]| place.iter().fold(Vec3::ZERO, |sum, &(v, weight)| sum + values[v] * weight);
+        Site { place: mixed(&self.place), ear: mixed(&self.ear), flow: mixed(&self.flow), hair: None }
+    }
+
     /// The site of a hair's root; `triangles` are those that it was made for.
     pub fn root(&self, root: &Root, triangles: &[[u32; 3]]) -> Site {
         let corners = triangles[root.triangle as usize];

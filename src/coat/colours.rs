@@ -34,6 +34,12 @@ impl<'a> Colours<'a> {
         filled(self.chart.len(), threads, |v| self.colouring.at(&self.chart.vertex(v), |i| self.patches[i][v]))
     }
 
+    /// Linear colour of the coat at a place between the skin's vertices, given by their weights.
+    pub fn between(&self, place: &[(usize, f32)]) -> Vec3 {
+        let patch = |i: usize| place.iter().fold(0.0, |sum, &(v, weight)| sum + self.patches[i][v] * weight);
+        self.colouring.at(&self.chart.between(place), patch)
+    }
+
     /// Linear colours of hairs, one for each root; `triangles` are those that the roots were made for.
     pub fn of_hair(&self, roots: &[Root], triangles: &[[u32; 3]], threads: usize) -> Vec<Vec3> {
         filled(roots.len(), threads, |i| {
