@@ -106,8 +106,7 @@ impl<'a> Spot<'a> {
         // What moves the sides against each other ends at the median plane, or it would tear what lies across it.
         let apart = vec3((raw.x / MIDDLE).clamp(-1.0, 1.0), 1.0, 1.0);
         let slow = noise::smooth(twin / 2.4, 1) * 0.42 * apart + noise::smooth(raw / 2.0, 2) * 0.30;
-        let tuft =
-            0.30 * noise::smooth(raw / 0.26, 3).x + site.hair.map_or(0.0, |h| 0.24 * noise::of_number(h, 1) - 0.12);
+        let tuft = 0.30 * noise::smooth(raw / 0.26, 3).x + site.fibre.own(1).map_or(0.0, |own| 0.24 * own - 0.12);
         let free = raw + slow + site.flow * tuft;
         let ear = smoothstep(0.15, 0.75, site.ear.x);
         let root = vec3(place::EAR.x * flip.x, place::EAR.y, place::EAR.z);
@@ -118,10 +117,10 @@ impl<'a> Spot<'a> {
     /// From a distance inside a border (head units) to how much is covered; `soft_mm` is the border's width.
     fn within(&self, inside: f32, soft_mm: f32) -> f32 {
         let soft = soft_mm * MM;
-        match self.site.hair {
+        match self.site.fibre.own(2) {
             None => smoothstep(-0.5, 0.5, inside / soft),
             // Each hair is of one colour or the other, nearly.
-            Some(hair) => smoothstep(-0.2, 0.2, inside / soft + 0.8 * (noise::of_number(hair, 2) - 0.5)),
+            Some(own) => smoothstep(-0.2, 0.2, inside / soft + 0.8 * (own - 0.5)),
         }
     }
 
@@ -373,11 +372,11 @@ impl<'a> Spot<'a> {
             Roan => {
                 let [density, patchy, number, ..] = v;
                 let here = density * (1.0 + patchy * noise::smooth(self.free / 1.7, seed(number)).x);
-                self.site.hair.map_or(here, |hair| if noise::of_number(hair, seed(number)) < here { 1.0 } else { 0.0 })
+                self.site.fibre.own(seed(number)).map_or(here, |own| if own < here { 1.0 } else { 0.0 })
             }
             Grizzle => {
                 let [density, spread, number, ..] = v;
-                let own = self.site.hair.map_or(0.5, |hair| noise::of_number(hair, seed(number)));
+                let own = self.site.fibre.own(seed(number)).unwrap_or(0.5);
                 let lock = 0.25 * noise::smooth(self.free / 0.5, seed(number)).x;
                 (density + spread * (own - 0.5 + lock)).clamp(0.0, 1.0)
             }

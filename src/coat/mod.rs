@@ -9,7 +9,7 @@ mod groom;
 mod markings;
 mod roots;
 
-pub use chart::{Chart, Site};
+pub use chart::{Chart, Fibre, Site};
 pub use colours::Colours;
 pub use groom::groom;
 pub use markings::Colouring;

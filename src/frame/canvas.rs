@@ -2,7 +2,7 @@
 
 use super::skin::leathered;
 use crate::anatomy::Look;
-use crate::coat::{Chart, Colours};
+use crate::coat::{Chart, Colours, Fibre};
 use crate::rig::Rig;
 use crate::subdiv::{Plan, evaluate_once};
 use glam::Vec3;
@@ -40,7 +40,17 @@ impl<'a> Canvas<'a> {
     /// Linear colour at a place given by vertices of the skin (below [`n_vertices`](Self::n_vertices)) and their weights, which
     /// sum to 1.
     pub fn colour(&self, place: &[(usize, f32)]) -> Vec3 {
-        let coat = self.coats.iter().fold(Vec3::ZERO, |sum, (share, coat)| sum + coat.between(place) * *share);
+        self.of(place, Fibre::Skin)
+    }
+
+    /// The same of one stroke of hair there: what of each hair is its own follows from `own`, 0 to 1, whose values are equally
+    /// frequent.
+    pub fn stroke(&self, place: &[(usize, f32)], own: f32) -> Vec3 {
+        self.of(place, Fibre::Stroke(own))
+    }
+
+    fn of(&self, place: &[(usize, f32)], fibre: Fibre) -> Vec3 {
+        let coat = self.coats.iter().fold(Vec3::ZERO, |sum, (share, coat)| sum + coat.between(place, fibre) * *share);
         let mixed = |values: &[Vec3]| place.iter().fold(Vec3::ZERO, |sum, &(v, weight)| sum + values[v] * weight);
         leathered(coat, mixed(&self.leathers), mixed(&self.bare))
     }

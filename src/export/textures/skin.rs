@@ -2,7 +2,7 @@
 
 use super::cobbles::cobble;
 use super::relief::{Steps, in_tangent_space};
-use super::streaks::{blobs, seen, streaks};
+use super::streaks::{blobs, rank, seen, streaks};
 use super::tangents::middle;
 use super::texels::{Texel, Texels};
 use super::{filled, gutter};
@@ -19,6 +19,8 @@ const MOTTLE: f32 = 0.035;
 const STREAK: f32 = 0.8;
 /// How much streaks, locks and mottles lighten and darken, as exponents.
 const SHADE: [f32; 3] = [0.24, 0.18, 0.10];
+/// How much of a stroke's colour is its own where hairs differ: it stands for many, each of which is one or the other.
+const OWN: f32 = 0.6;
 /// How much streaks and locks turn the normal sideways, and locks along the hair.
 const TURN: [f32; 3] = [0.26, 0.20, 0.08];
 /// The least width of a cobble, texels.
@@ -32,6 +34,16 @@ pub(super) struct Hair {
     pub directions: Vec<Vec3>,
     /// How curly it is all over, 0 to 1.
     pub curl: f32,
+}
+
+/// A texel's place in the coat.
+struct Fur {
+    /// A factor for the colour.
+    shade: f32,
+    normal: Vec3,
+    /// By what the stroke there differs from those beside it, 0 to 1, and how much of it is seen.
+    own: f32,
+    seen: f32,
 }
 
 /// What the skin is painted from.
@@ -113,42 +125,52 @@ impl<'a> Painter<'a> {
         let place = mixed(self.part.positions) + steps.times(texel.beyond);
 
         let halves = std::array::from_fn::<_, 6, _>(|i| (vertices[i / 2][i % 2] as usize, 0.5 * texel.weights[i / 2]));
-        let colour = self.canvas.colour(&halves);
         let here = self.texel_of(texel.triangle);
-        let (shade, bumped) = match self.materials[texel.triangle] {
+        let (colour, bumped) = match self.materials[texel.triangle] {
             Material::Nose => {
                 let rest = self.steps(texel.triangle, self.part.rest);
                 let at = mixed(self.part.rest) + rest.times(texel.beyond);
                 let wanted = (1.0 / 900.0_f32).max(COBBLE * self.nose_texel).min(1.0 / 300.0);
-                self.leather(at, normal, steps, rest, here, wanted)
+                let (furrow, bumped) = self.leather(at, normal, steps, rest, here, wanted);
+                (self.canvas.colour(&halves) * furrow, bumped)
             }
             Material::Coat => {
                 let along = mixed(&self.hair.directions);
                 let length = halves.iter().fold(0.0, |sum, &(v, weight)| sum + self.hair.lengths[v] * weight);
-                self.fur(place, normal, along, length, mixed(self.part.surface).x.clamp(0.0, 1.0), here)
+                let fur = mixed(self.part.surface).x.clamp(0.0, 1.0);
+                let Fur { shade, normal, own, seen } = self.fur(place, normal, along, length, fur, here);
+                let mean = self.canvas.colour(&halves);
+                let colour = if seen > 0.0 { mean.lerp(self.canvas.stroke(&halves, own), seen) } else { mean };
+                (colour * shade, normal)
             }
-            _ => (1.0, normal),
+            _ => (self.canvas.colour(&halves), normal),
         };
-        [to_srgb8(colour * shade), in_tangent_space(bumped, normal, tangent)]
+        [to_srgb8(colour), in_tangent_space(bumped, normal, tangent)]
     }
 
-    /// A factor for the colour, and the normal.
-    fn fur(&self, place: Vec3, normal: Vec3, lies: Vec3, length: f32, fur: f32, texel: f32) -> (f32, Vec3) {
+    fn fur(&self, place: Vec3, normal: Vec3, lies: Vec3, length: f32, fur: f32, texel: f32) -> Fur {
         let flat = |v: Vec3| v - normal * v.dot(normal);
         let along = flat(lies).normalize_or(normal.cross(Vec3::X).normalize_or(Vec3::Z));
         let [fine_width, lock_width] = [FINE, LOCK].map(|(part, texels)| (part * self.head).max(texels * self.texel));
         // Locks do not lie quite alike; curls far from it.
         let swing = blobs(place, (3.0 * lock_width).min(0.012 * self.head), 11).x * (0.35 + 0.5 * self.hair.curl);
         let lean = (along + normal.cross(along) * swing).normalize_or(along);
-        let fine = streaks(place, lean, fine_width, STREAK * length, 12) * seen(texel, fine_width);
+        let visible = seen(texel, fine_width);
+        let stroke = streaks(place, lean, fine_width, STREAK * length, 12);
+        let fine = stroke * visible;
         let locks = streaks(place, lean, lock_width, STREAK * length, 13) * seen(texel, lock_width);
         let mottle = blobs(place, MOTTLE * self.head, 14).y;
         let shade = (fine.x * SHADE[0] + locks.x * SHADE[1] + mottle * SHADE[2]) * fur;
         let turned = normal.cross(lean) * (fine.y * TURN[0] + locks.y * TURN[1]) + lean * (locks.z * TURN[2]);
-        (ops::exp(shade), (normal + turned * fur).normalize_or(normal))
+        Fur {
+            shade: ops::exp(shade),
+            normal: (normal + turned * fur).normalize_or(normal),
+            own: rank(stroke.z),
+            seen: OWN * visible * fur,
+        }
     }
 
-    /// The same of the nose. `rest`: the place on the base head, to which `to_rest` leads; `cell`: a cobble's width, metres.
+    /// A factor for the colour of the nose, and its normal. `rest`: the place on the base head, to which `to_rest` leads; `cell`: a cobble's width, metres.
     fn leather(&self, rest: Vec3, normal: Vec3, steps: Steps, to_rest: Steps, texel: f32, cell: f32) -> (f32, Vec3) {
         const RELIEF: f32 = 0.62;
         let (outward, height) = cobble(rest / cell);
