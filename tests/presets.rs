@@ -7,7 +7,10 @@ mod pictures;
 mod stand_in;
 
 use londra::anatomy::Breed;
-use londra::render::{Background, Camera, DrawError, Drawing, Gpu, Lens, Offscreen, Picture, Preset, Samples, View};
+use londra::frame::Layers;
+use londra::render::{
+    Background, Camera, DrawError, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Preset, Samples, Sheet, View,
+};
 use pictures::{Heads, offscreen};
 
 const SIDE: u32 = 120;
@@ -122,6 +125,22 @@ fn clay_shows_the_colours_of_the_coat() {
     let before = drawn(&mut heads, &mut offscreen, &breed, Preset::Clay, |_| ());
     assert!(before == drawn(&mut heads, &mut offscreen, &dyed, Preset::Clay, |_| ()));
     assert!(before != drawn(&mut heads, &mut offscreen, &breed, Preset::Studio, |_| ()));
+}
+
+#[test]
+fn clay_on_a_sheet_has_whiskers() {
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
+    let breed = heads.breed("beagle");
+    let mut sheet_of = |whiskers: bool, dress: Dress| {
+        heads.pipeline.set_layers(Layers { whiskers, ..Layers::default() }).unwrap();
+        let views = vec![View::Portrait];
+        let mut sheet = Sheet::new(views, [SIDE; 2], true, Lens::default(), None, Background::default());
+        sheet.dresses = vec![dress];
+        sheet.add_row(&mut offscreen, &heads.pipeline.update(&breed), "beagle").unwrap();
+        sheet.finish()
+    };
+    assert!(sheet_of(true, Dress::Clay) == sheet_of(false, Dress::Clay));
+    assert!(sheet_of(true, Dress::Skin) != sheet_of(false, Dress::Skin));
 }
 
 #[test]

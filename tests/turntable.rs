@@ -138,3 +138,22 @@ fn hair_that_comes_and_goes_is_not_seen_as_flicker() {
     let jumps = jumps(&mut Heads::new(3), "german_shepherd", [90_000, 30_000]);
     assert!(mean(&jumps) > MEAN && above(&jumps, 8.0) > OF_EIGHT, "{}, {} by 8", mean(&jumps), above(&jumps, 8.0));
 }
+
+#[test]
+fn the_ground_of_a_turning_head_steps_or_changes() {
+    let mut heads = Heads::new(2);
+    let mut offscreen = offscreen();
+    let dog = heads.breed("pug");
+    let frame = heads.pipeline.update(&dog);
+    let [first, last] = [0, 180].map(|k| {
+        let drawing = Drawing::new(camera(&frame, k));
+        offscreen.draw(&frame, &drawing, [SIDE; 2]).unwrap()
+    });
+    let edge = |picture: &Picture| -> Vec<[u8; 4]> {
+        (0..SIDE as usize / 2).map(|y| picture.rgba.as_chunks::<4>().0[y * SIDE as usize]).collect()
+    };
+    let (first, last) = (edge(&first), edge(&last));
+    assert_eq!(first, last);
+    let steps = first.windows(2).map(|w| (0..3).map(|k| w[0][k].abs_diff(w[1][k])).max().unwrap());
+    assert!(steps.max() == Some(1), "a band of more than one level");
+}
