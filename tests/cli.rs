@@ -45,6 +45,7 @@ fn help_and_version_go_to_stdout() {
         "view",
         "render",
         "sheet",
+        "turntable",
         "atlas",
         "breed",
         "export",
@@ -732,4 +733,43 @@ fn bake_proves_the_assets_and_rebuilds_changed_ones() {
     let baked = std::fs::read(folder.path().join("assets").join("head.ron")).unwrap();
     assert!(baked == std::fs::read(Path::new(root).join("assets").join("head.ron")).unwrap());
     done(&["bake", "--check", "--root", text(folder.path())]);
+}
+
+// ---- textures and turns ----
+
+#[test]
+fn a_texture_is_not_in_the_file_or_has_a_size_that_nobody_asked_for() {
+    let folder = folder();
+    let path = folder.path().join("pug.glb");
+    let target = path.to_str().unwrap();
+    let words = ["export", "--breed", "pug", "--level", "1", "--textures", "256", "-o", target, "--json"];
+    let facts: Value = serde_json::from_str(&done(&words).stdout).unwrap();
+    assert_eq!(facts["textures"], 256);
+    let (document, ..) = gltf::import(&path).unwrap();
+    assert_eq!(document.images().count(), 3);
+    for size in ["255", "1000", "8192", "many"] {
+        refused(
+            &["export", "--breed", "pug", "--textures", size, "-o", target],
+            2,
+            &["take 256, 512, 1024, 2048 or 4096"],
+        );
+    }
+}
+
+#[test]
+fn a_turn_has_other_pictures_than_its_frames() {
+    let folder = folder();
+    let pattern = folder.path().join("turn_%02d.png");
+    let target = pattern.to_str().unwrap();
+    let words =
+        ["turntable", "--breed", "pug", "--level", "1", "--hair", "off", "--size", "48x32", "--frames", "3", "--json"];
+    let turn = |target| [&words[..], &["-o", target]].concat();
+    let facts: Value = serde_json::from_str(&done(&turn(target)).stdout).unwrap();
+    assert_eq!(facts["frames"], 3);
+    let frames: Vec<Vec<u8>> =
+        (0..3).map(|k| std::fs::read(folder.path().join(format!("turn_{k:02}.png"))).unwrap()).collect();
+    assert!(frames.iter().all(|png| png_size(png) == (48, 32)));
+    assert!(frames[0] != frames[1] && frames[1] != frames[2] && frames[0] != frames[2]);
+    assert_eq!(names_in(folder.path()).len(), 3);
+    refused(&turn("turn.png"), 2, &["as in turn_%04d.png"]);
 }

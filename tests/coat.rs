@@ -1,6 +1,9 @@
 //! Hair: where it grows, that it is the same everywhere, what it costs, and that it is seen.
 #![cfg(feature = "head")]
 
+#[cfg(feature = "graphics")]
+#[path = "support/pictures.rs"]
+mod pictures;
 #[path = "support/settings.rs"]
 mod settings;
 
@@ -15,19 +18,13 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/coat_hashes.txt")
 const LEVEL: u32 = 2;
 const N: usize = 20_000;
 
-fn pipeline(world: &World, n_strands: usize) -> Pipeline {
-    let mut pipeline = Pipeline::new(world.rig.clone(), LEVEL).unwrap();
-    pipeline.set_hair(n_strands);
-    pipeline
-}
-
 fn roots(pipeline: &mut Pipeline, breed: &Breed) -> Vec<Root> {
     pipeline.update(breed).coat.unwrap().roots.to_vec()
 }
 
 fn stages_of_hair(world: &World) -> String {
     let mut out = String::from("# breed stage hash; written by UPDATE_HASHES=1 cargo test --test coat\n");
-    let mut pipeline = pipeline(world, N);
+    let mut pipeline = world.pipeline(LEVEL, N);
     let mut line = |breed: &str, stage: &str, hash: Fnv64| {
         out.push_str(&format!("{breed} {stage} {:016x}\n", hash.finish()));
     };
@@ -70,9 +67,9 @@ fn hair_has_other_bits_than_the_committed_ones() {
 fn fewer_strands_are_not_the_first_ones_or_leave_a_region_bare() {
     let world = World::embedded();
     let lab = world.breed("labrador").clone();
-    let all = roots(&mut pipeline(&world, N), &lab);
+    let all = roots(&mut world.pipeline(LEVEL, N), &lab);
     assert_eq!(all.len(), N);
-    let mut few = pipeline(&world, N / 10);
+    let mut few = world.pipeline(LEVEL, N / 10);
     assert!(all[..N / 10] == roots(&mut few, &lab)[..]);
     let regions = world.rig.half().whole_regions();
     let control = world.rig.mesh().indices();
@@ -115,7 +112,7 @@ fn materials(frame: &Frame<'_>) -> Vec<Material> {
 #[test]
 fn a_hair_grows_on_leather_or_leaves_its_triangle() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, N);
+    let mut pipeline = world.pipeline(LEVEL, N);
     let frame = pipeline.update(&world.breeds[0]);
     let materials = materials(&frame);
     let coat = frame.coat.unwrap();
@@ -129,7 +126,7 @@ fn a_hair_grows_on_leather_or_leaves_its_triangle() {
 #[test]
 fn hair_of_a_breed_or_a_blend_is_no_length_or_stands_on_leather() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, 1);
+    let mut pipeline = world.pipeline(LEVEL, 1);
     let mut heads = world.breeds.clone();
     let pairs = [("pug", "afghan_hound"), ("poodle", "borzoi"), ("shih_tzu", "dobermann")];
     heads.extend(pairs.map(|(a, b)| Breed::blend(&world.table, &[(world.breed(a), 0.4), (world.breed(b), 0.6)])));
@@ -181,14 +178,10 @@ fn hair_is_lost_on_the_way_through_a_file_or_a_blend() {
 #[cfg(feature = "graphics")]
 mod drawn {
     use super::*;
-    use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, View};
+    use crate::pictures::offscreen;
+    use londra::render::{Background, Camera, Drawing, Lens, Offscreen, Picture, View};
 
     const SIDE: u32 = 120;
-
-    fn offscreen() -> Offscreen {
-        let gpu = Gpu::open_software().unwrap_or_else(|e| panic!("pictures cannot be tested here: {e}"));
-        Offscreen::new(gpu).unwrap_or_else(|e| panic!("shaders/{e}"))
-    }
 
     fn picture(offscreen: &mut Offscreen, frame: &Frame<'_>, n_strands: u32) -> Picture {
         let mut camera = Camera::at(View::Portrait, None, Lens::default());
@@ -205,7 +198,7 @@ mod drawn {
     #[test]
     fn hair_is_not_seen_at_the_outline() {
         let world = World::embedded();
-        let mut pipeline = pipeline(&world, 10_000);
+        let mut pipeline = world.pipeline(LEVEL, 10_000);
         let mut offscreen = offscreen();
         let frame = pipeline.update(world.breed("samoyed"));
         let [bare, haired] = [0, 10_000].map(|n| picture(&mut offscreen, &frame, n));
@@ -219,7 +212,7 @@ mod drawn {
         let world = World::embedded();
         let mut offscreen = offscreen();
         let uploads = [1_000, 8_000].map(|n| {
-            let mut pipeline = pipeline(&world, n);
+            let mut pipeline = world.pipeline(LEVEL, n);
             offscreen.forget();
             let mut lab = world.breed("labrador").clone();
             picture(&mut offscreen, &pipeline.update(&lab), n as u32);

@@ -307,7 +307,7 @@ fn the_root_tells_the_breed_and_can_be_opened_again() {
     let (table, head) = (table(), head());
     let (a, b) = (breed(&table), library::breed(&table, "labrador").unwrap());
     let blend = Breed::blend(&table, &[(&a, 0.3), (&b, 0.7)]);
-    let options = GlbOptions { copyright: Some("© somebody".into()) };
+    let options = GlbOptions { copyright: Some("© somebody".into()), ..GlbOptions::default() };
     let glb = to_glb(&head.frame(), &table, &blend, &options).unwrap();
     let (json, _) = chunks(&glb);
     assert_eq!(json["asset"]["generator"], format!("Londra {}", env!("CARGO_PKG_VERSION")));

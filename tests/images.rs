@@ -6,17 +6,17 @@
 
 #[path = "support/difference.rs"]
 mod difference;
+#[path = "support/pictures.rs"]
+mod pictures;
 #[path = "support/stand_in.rs"]
 mod stand_in;
 
 use difference::{Difference, difference};
 use glam::Vec3;
-use londra::anatomy::{Breed, ParamTable, Pattern, library};
-use londra::frame::Pipeline;
+use londra::anatomy::{Breed, Pattern};
 use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, View};
-use londra::rig::Rig;
+use pictures::{Heads, offscreen};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 /// What a picture may differ by on the pinned driver, llvmpipe of Mesa 22.3, which gives the same bytes in every run.
 /// The margin is below what moves when a muzzle, a colour or a light is a little different: a test below proves it.
@@ -31,49 +31,19 @@ fn allowed(offscreen: &Offscreen) -> Difference {
     if is_pinned { ALLOWED } else { ALLOWED_ELSEWHERE }
 }
 
-/// One device for all tests, and one at a time: the software driver takes every core anyhow.
-fn offscreen() -> MutexGuard<'static, Offscreen> {
-    static DEVICE: OnceLock<Mutex<Offscreen>> = OnceLock::new();
-    let device = DEVICE.get_or_init(|| {
-        let gpu = Gpu::open_software().unwrap_or_else(|e| panic!("pictures cannot be tested here: {e}"));
-        Mutex::new(Offscreen::new(gpu).unwrap_or_else(|e| panic!("shaders/{e}")))
-    });
-    let mut guard = device.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    guard.forget();
-    guard
-}
-
-struct Heads {
-    table: Arc<ParamTable>,
-    pipeline: Pipeline,
-}
-
-impl Heads {
-    fn new(level: u32) -> Self {
-        let table = Arc::new(ParamTable::embedded().unwrap());
-        let rig = Arc::new(Rig::embedded(&table).unwrap());
-        let pipeline = Pipeline::new(rig, level).unwrap();
-        Self { table, pipeline }
-    }
-
-    fn breed(&self, id: &str) -> Breed {
-        library::breed(&self.table, id).unwrap()
-    }
-
-    fn picture(
-        &mut self,
-        offscreen: &mut Offscreen,
-        breed: &Breed,
-        view: View,
-        change: impl Fn(&mut Drawing),
-    ) -> Picture {
-        let frame = self.pipeline.update(breed);
-        let mut camera = Camera::at(view, None, Lens::default());
-        camera.fit(frame.parts.iter().flat_map(|p| p.positions), 1.0, 0.08);
-        let mut drawing = Drawing::new(camera);
-        change(&mut drawing);
-        offscreen.draw(&frame, &drawing, [160, 160]).unwrap()
-    }
+fn drawn(
+    heads: &mut Heads,
+    offscreen: &mut Offscreen,
+    breed: &Breed,
+    view: View,
+    change: impl Fn(&mut Drawing),
+) -> Picture {
+    let frame = heads.pipeline.update(breed);
+    let mut camera = Camera::at(view, None, Lens::default());
+    camera.fit(frame.parts.iter().flat_map(|p| p.positions), 1.0, 0.08);
+    let mut drawing = Drawing::new(camera);
+    change(&mut drawing);
+    offscreen.draw(&frame, &drawing, [160, 160]).unwrap()
 }
 
 fn read(path: &PathBuf) -> Option<Picture> {
@@ -115,7 +85,7 @@ fn compare(name: &str, picture: &Picture, allowed: Difference) {
 fn the_labrador_looks_as_it_did() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("labrador");
-    let picture = heads.picture(&mut offscreen, &breed, View::Portrait, |_| ());
+    let picture = drawn(&mut heads, &mut offscreen, &breed, View::Portrait, |_| ());
     compare("labrador_portrait", &picture, allowed(&offscreen));
 }
 
@@ -123,7 +93,7 @@ fn the_labrador_looks_as_it_did() {
 fn the_pug_looks_as_it_did() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("pug");
-    let picture = heads.picture(&mut offscreen, &breed, View::Front, |_| ());
+    let picture = drawn(&mut heads, &mut offscreen, &breed, View::Front, |_| ());
     compare("pug_front", &picture, allowed(&offscreen));
 }
 
@@ -132,7 +102,7 @@ fn the_borzoi_looks_as_it_did_from_the_side_before_nothing() {
     let (mut heads, mut offscreen) = (Heads::new(3), offscreen());
     let breed = heads.breed("borzoi");
     let nothing = |d: &mut Drawing| d.background = Background::None;
-    let picture = heads.picture(&mut offscreen, &breed, View::Side, nothing);
+    let picture = drawn(&mut heads, &mut offscreen, &breed, View::Side, nothing);
     compare("borzoi_side", &picture, allowed(&offscreen));
 }
 
@@ -142,7 +112,7 @@ fn the_lines_look_as_they_did() {
     let breed = heads.breed("german_shepherd");
     for (name, shading) in [("lines_refined", Shading::Wireframe), ("lines_control", Shading::Control)] {
         let change = |d: &mut Drawing| d.shading = shading;
-        let picture = heads.picture(&mut offscreen, &breed, View::ThreeQuarter, change);
+        let picture = drawn(&mut heads, &mut offscreen, &breed, View::ThreeQuarter, change);
         compare(name, &picture, allowed(&offscreen));
     }
 }
@@ -151,20 +121,20 @@ fn the_lines_look_as_they_did() {
 fn a_picture_comes_out_the_same_twice() {
     let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("beagle");
-    let first = heads.picture(&mut offscreen, &breed, View::Portrait, |_| ());
+    let first = drawn(&mut heads, &mut offscreen, &breed, View::Portrait, |_| ());
     offscreen.forget();
-    let again = heads.picture(&mut offscreen, &breed, View::Portrait, |_| ());
+    let again = drawn(&mut heads, &mut offscreen, &breed, View::Portrait, |_| ());
     assert!(first == again, "the same head gave other bytes");
     drop(offscreen);
     let mut other = Offscreen::new(Gpu::open_software().unwrap()).unwrap();
-    assert!(heads.picture(&mut other, &breed, View::Portrait, |_| ()) == first, "another device gave other bytes");
+    assert!(drawn(&mut heads, &mut other, &breed, View::Portrait, |_| ()) == first, "another device gave other bytes");
 }
 
 #[test]
 fn the_threshold_sees_a_small_change_of_shape_colour_and_light() {
     let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("labrador");
-    let before = heads.picture(&mut offscreen, &breed, View::Portrait, |_| ());
+    let before = drawn(&mut heads, &mut offscreen, &breed, View::Portrait, |_| ());
     let mut longer = breed.clone();
     let index = heads.table.index_of("facial_length_mm").unwrap();
     longer.set_value(&heads.table, index, breed.values[index] + 0.004);
@@ -174,9 +144,9 @@ fn the_threshold_sees_a_small_change_of_shape_colour_and_light() {
         let d = difference(&before, picture);
         d.mean > ALLOWED.mean || d.percentile_99 > ALLOWED.percentile_99
     };
-    assert!(seen(&heads.picture(&mut offscreen, &longer, View::Portrait, |_| ())), "4 mm of muzzle");
-    assert!(seen(&heads.picture(&mut offscreen, &paler, View::Portrait, |_| ())), "a paler coat");
-    assert!(seen(&heads.picture(&mut offscreen, &breed, View::Portrait, |d| d.light_turn = 0.3)), "turned light");
+    assert!(seen(&drawn(&mut heads, &mut offscreen, &longer, View::Portrait, |_| ())), "4 mm of muzzle");
+    assert!(seen(&drawn(&mut heads, &mut offscreen, &paler, View::Portrait, |_| ())), "a paler coat");
+    assert!(seen(&drawn(&mut heads, &mut offscreen, &breed, View::Portrait, |d| d.light_turn = 0.3)), "turned light");
 }
 
 #[test]

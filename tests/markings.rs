@@ -15,12 +15,6 @@ use settings::World;
 const LEVEL: u32 = 2;
 const N: usize = 6_000;
 
-fn pipeline(world: &World, n_strands: usize) -> Pipeline {
-    let mut pipeline = Pipeline::new(world.rig.clone(), LEVEL).unwrap();
-    pipeline.set_hair(n_strands);
-    pipeline
-}
-
 fn hair_colours(pipeline: &mut Pipeline, breed: &Breed) -> Vec<Vec3> {
     pipeline.update(breed).coat.unwrap().colours.to_vec()
 }
@@ -46,7 +40,7 @@ fn colours_of_a_coat_depend_on_the_threads() {
     let mut breed = world.breed("australian_shepherd").clone();
     breed.look.pattern.markings.extend(every_marking().markings);
     let [one, eight] = [1, 8].map(|threads| {
-        let mut pipeline = pipeline(&world, N);
+        let mut pipeline = world.pipeline(LEVEL, N);
         pipeline.set_threads(threads);
         let frame = pipeline.update(&breed);
         (bits(frame.parts[0].colours), bits(frame.coat.unwrap().colours))
@@ -58,7 +52,7 @@ fn colours_of_a_coat_depend_on_the_threads() {
 fn colours_of_fewer_strands_are_not_the_first_of_more() {
     let world = World::embedded();
     for id in ["greyhound", "english_cocker"] {
-        let [few, many] = [N / 4, N].map(|n| hair_colours(&mut pipeline(&world, n), world.breed(id)));
+        let [few, many] = [N / 4, N].map(|n| hair_colours(&mut world.pipeline(LEVEL, n), world.breed(id)));
         assert_eq!((few.len(), many.len()), (N / 4, N));
         assert_eq!(bits(&few), bits(&many[..N / 4]), "{id}");
     }
@@ -67,7 +61,7 @@ fn colours_of_fewer_strands_are_not_the_first_of_more() {
 #[test]
 fn a_marking_slides_over_the_skin_when_a_measure_moves() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, N);
+    let mut pipeline = world.pipeline(LEVEL, N);
     let mut dog = world.breed("border_collie").clone();
     let before = hair_colours(&mut pipeline, &dog);
     for (id, factor) in [("facial_length_mm", 0.6), ("cranial_length_mm", 1.1), ("ear_length_mm", 1.2)] {
@@ -84,7 +78,7 @@ fn a_marking_slides_over_the_skin_when_a_measure_moves() {
 #[test]
 fn two_breeds_wear_the_same_coat() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, 1_000);
+    let mut pipeline = world.pipeline(LEVEL, 1_000);
     let coats: Vec<_> = world.breeds.iter().map(|b| bits(&hair_colours(&mut pipeline, b))).collect();
     for (i, a) in coats.iter().enumerate() {
         for (j, b) in coats[..i].iter().enumerate() {
@@ -96,7 +90,7 @@ fn two_breeds_wear_the_same_coat() {
 #[test]
 fn two_coats_of_a_breed_are_alike() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, 1_000);
+    let mut pipeline = world.pipeline(LEVEL, 1_000);
     for breed in &world.breeds {
         let mut seen = Vec::new();
         for variety in &breed.varieties {
@@ -117,7 +111,7 @@ fn two_coats_of_a_breed_are_alike() {
 #[test]
 fn a_kind_of_marking_is_not_seen_or_no_colour() {
     let world = World::embedded();
-    let chart = Chart::new(&world.rig, pipeline(&world, 0).skin_plan());
+    let chart = Chart::new(&world.rig, world.pipeline(LEVEL, 0).skin_plan());
     for &kind in MarkingKind::ALL {
         let pattern = Pattern { markings: vec![Marking::new(kind, Paint::White)], ..Pattern::plain(Vec3::ZERO) };
         let colouring = Colouring::new(&pattern);
@@ -138,7 +132,7 @@ fn a_kind_of_marking_is_not_seen_or_no_colour() {
 #[test]
 fn a_mask_is_not_before_the_eyes_or_a_saddle_on_the_face() {
     let world = World::embedded();
-    let chart = Chart::new(&world.rig, pipeline(&world, 0).skin_plan());
+    let chart = Chart::new(&world.rig, world.pipeline(LEVEL, 0).skin_plan());
     let cover = |marking: Marking, wanted: Vec3| {
         let pattern = Pattern { markings: vec![marking], ..Pattern::plain(Vec3::ZERO) };
         let at = |v: &usize| chart.vertex(*v).place.distance_squared(wanted);
@@ -159,6 +153,27 @@ fn a_mask_is_not_before_the_eyes_or_a_saddle_on_the_face() {
         let marking = Marking::new(kind, white).with("extent", 0.6);
         let [covered, free] = [covered, free].map(|place| cover(marking.clone(), place));
         assert!(covered > 0.9 && free < 0.1, "{}: {covered} and {free}", kind.name());
+    }
+}
+
+#[test]
+fn a_marking_is_torn_along_the_median_plane() {
+    let world = World::embedded();
+    let chart = Chart::new(&world.rig, world.pipeline(LEVEL, 0).skin_plan());
+    let middle: Vec<usize> = (0..chart.len()).filter(|&v| chart.vertex(v).place.x.abs() < 1e-4).collect();
+    assert!(middle.len() > 50, "{} vertices on the median plane", middle.len());
+    for &kind in MarkingKind::ALL {
+        let pattern = Pattern { markings: vec![Marking::new(kind, Paint::White)], ..Pattern::plain(Vec3::ZERO) };
+        let colouring = Colouring::new(&pattern);
+        for &v in &middle {
+            let beside = |x: f32| {
+                let mut site = chart.vertex(v);
+                site.place.x = x;
+                colouring.at(&site, |_| 0.0).x
+            };
+            let torn = (beside(1e-4) - beside(-1e-4)).abs();
+            assert!(torn < 0.01, "{} at {}: {torn}", kind.name(), chart.vertex(v).place);
+        }
     }
 }
 
@@ -190,7 +205,7 @@ fn marks_of_the_first_version_are_not_read_as_patches() {
 #[test]
 fn a_blend_is_not_the_mean_of_its_coats() {
     let world = World::embedded();
-    let mut pipeline = pipeline(&world, N);
+    let mut pipeline = world.pipeline(LEVEL, N);
     let (pug, collie) = (world.breed("pug"), world.breed("border_collie"));
     let [of_pug, of_collie] = [pug, collie].map(|b| hair_colours(&mut pipeline, b));
     let blend = Breed::blend(&world.table, &[(pug, 0.3), (collie, 0.7)]);

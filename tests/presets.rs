@@ -1,70 +1,44 @@
 //! Each way of showing a head gives the picture that it promises, on the software Vulkan driver.
 #![cfg(feature = "graphics")]
 
+#[path = "support/pictures.rs"]
+mod pictures;
 #[path = "support/stand_in.rs"]
 mod stand_in;
 
-use londra::anatomy::{Breed, ParamTable, library};
-use londra::frame::Pipeline;
-use londra::render::{Background, Camera, DrawError, Drawing, Gpu, Lens, Offscreen, Picture, Preset, Samples, View};
-use londra::rig::Rig;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
-
-/// One device for all tests, and one at a time: the software driver takes every core anyhow.
-fn offscreen() -> MutexGuard<'static, Offscreen> {
-    static DEVICE: OnceLock<Mutex<Offscreen>> = OnceLock::new();
-    let device = DEVICE.get_or_init(|| {
-        let gpu = Gpu::open_software().unwrap_or_else(|e| panic!("pictures cannot be tested here: {e}"));
-        Mutex::new(Offscreen::new(gpu).unwrap_or_else(|e| panic!("shaders/{e}")))
-    });
-    let mut guard = device.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    guard.forget();
-    guard
-}
-
-struct Heads {
-    table: Arc<ParamTable>,
-    pipeline: Pipeline,
-}
+use londra::anatomy::Breed;
+use londra::frame::Layers;
+use londra::render::{
+    Background, Camera, DrawError, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Preset, Samples, Sheet, View,
+};
+use pictures::{Heads, offscreen};
 
 const SIDE: u32 = 120;
 
-impl Heads {
-    fn new() -> Self {
-        let table = Arc::new(ParamTable::embedded().unwrap());
-        let rig = Arc::new(Rig::embedded(&table).unwrap());
-        Self { pipeline: Pipeline::new(rig, 2).unwrap(), table }
-    }
-
-    fn breed(&self, id: &str) -> Breed {
-        library::breed(&self.table, id).unwrap()
-    }
-
-    /// As the command line draws it: with the preset's own ground, layers and hair.
-    fn picture(
-        &mut self,
-        offscreen: &mut Offscreen,
-        breed: &Breed,
-        preset: Preset,
-        change: impl Fn(&mut Drawing),
-    ) -> Picture {
-        let layers = preset.layers();
-        self.pipeline.set_layers(layers).unwrap();
-        let n_strands = if preset.has_hair() { 4000 } else { 0 };
-        self.pipeline.set_hair(n_strands as usize);
-        let frame = self.pipeline.update(breed);
-        let mut camera = Camera::at(View::Portrait, None, Lens::default());
-        camera.fit(frame.parts.iter().flat_map(|p| p.positions), 1.0, 0.1);
-        let mut drawing = Drawing {
-            preset,
-            background: preset.background(),
-            skin_opacity: layers.skin,
-            n_strands,
-            ..Drawing::new(camera)
-        };
-        change(&mut drawing);
-        offscreen.draw(&frame, &drawing, [SIDE; 2]).unwrap()
-    }
+/// As the command line draws it: with the preset's own ground, layers and hair.
+fn drawn(
+    heads: &mut Heads,
+    offscreen: &mut Offscreen,
+    breed: &Breed,
+    preset: Preset,
+    change: impl Fn(&mut Drawing),
+) -> Picture {
+    let layers = preset.layers();
+    heads.pipeline.set_layers(layers).unwrap();
+    let n_strands = if preset.has_hair() { 4000 } else { 0 };
+    heads.pipeline.set_hair(n_strands as usize);
+    let frame = heads.pipeline.update(breed);
+    let mut camera = Camera::at(View::Portrait, None, Lens::default());
+    camera.fit(frame.parts.iter().flat_map(|p| p.positions), 1.0, 0.1);
+    let mut drawing = Drawing {
+        preset,
+        background: preset.background(),
+        skin_opacity: layers.skin,
+        n_strands,
+        ..Drawing::new(camera)
+    };
+    change(&mut drawing);
+    offscreen.draw(&frame, &drawing, [SIDE; 2]).unwrap()
 }
 
 fn pixels(picture: &Picture) -> impl Iterator<Item = [u8; 4]> + '_ {
@@ -91,9 +65,9 @@ fn nothing(drawing: &mut Drawing) {
 
 #[test]
 fn a_silhouette_has_more_than_two_colours() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("borzoi");
-    let picture = heads.picture(&mut offscreen, &breed, Preset::Silhouette, |_| ());
+    let picture = drawn(&mut heads, &mut offscreen, &breed, Preset::Silhouette, |_| ());
     assert!(pixels(&picture).all(|[r, g, b, a]| r == g && g == b && a == 255), "a colour");
     let (black, white) = (part(&picture, |p| p[0] == 0), part(&picture, |p| p[0] == 255));
     assert!(black > 0.2 && white > 0.2, "{black} black, {white} white");
@@ -102,19 +76,19 @@ fn a_silhouette_has_more_than_two_colours() {
 
 #[test]
 fn a_silhouette_is_not_where_the_head_is() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("pug");
-    let ink = heads.picture(&mut offscreen, &breed, Preset::Silhouette, nothing);
-    let clay = heads.picture(&mut offscreen, &breed, Preset::Clay, nothing);
+    let ink = drawn(&mut heads, &mut offscreen, &breed, Preset::Silhouette, nothing);
+    let clay = drawn(&mut heads, &mut offscreen, &breed, Preset::Clay, nothing);
     assert!(pixels(&ink).zip(pixels(&clay)).all(|(a, b)| a[3] == b[3]), "the outlines differ");
 }
 
 #[test]
 fn a_head_before_nothing_stands_before_something() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("beagle");
     for preset in Preset::ALL {
-        let picture = heads.picture(&mut offscreen, &breed, preset, nothing);
+        let picture = drawn(&mut heads, &mut offscreen, &breed, preset, nothing);
         let corner = pixels(&picture).next().unwrap();
         assert_eq!(corner, [0; 4], "{}", preset.name());
         assert!(part(&picture, |p| p[3] > 200) > 0.1, "{}: no head", preset.name());
@@ -123,38 +97,55 @@ fn a_head_before_nothing_stands_before_something() {
 
 #[test]
 fn a_plain_ground_has_two_colours_and_a_graded_one_has_one() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("beagle");
     let edge = |picture: &Picture| {
         let at = |x: u32, y: u32| picture.rgba[4 * (y * SIDE + x) as usize..][..4].to_vec();
         [at(0, 0), at(SIDE - 1, 0), at(0, SIDE - 1), at(SIDE - 1, SIDE - 1)]
     };
     for preset in Preset::ALL {
-        let [a, b, c, d] = edge(&heads.picture(&mut offscreen, &breed, preset, |d| d.background = preset.plain()));
+        let [a, b, c, d] = edge(&drawn(&mut heads, &mut offscreen, &breed, preset, |d| d.background = preset.plain()));
         // Below, the head's soft shadow on the ground just reaches the corners.
         let near = |other: &[u8]| a.iter().zip(other).all(|(a, o)| a.abs_diff(*o) <= 8);
         assert!(near(&b) && near(&c) && near(&d), "{}: {a:?} {b:?} {c:?} {d:?}", preset.name());
-        let [a, b, c, d] = edge(&heads.picture(&mut offscreen, &breed, preset, |d| d.background = preset.gradient()));
+        let [a, b, c, d] =
+            edge(&drawn(&mut heads, &mut offscreen, &breed, preset, |d| d.background = preset.gradient()));
         assert!(a[0] != c[0] && a[0].abs_diff(b[0]) <= 1 && c[0].abs_diff(d[0]) <= 8, "{}", preset.name());
     }
 }
 
 #[test]
 fn clay_shows_the_colours_of_the_coat() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("beagle");
     let mut dyed = breed.clone();
     dyed.look.pattern = londra::anatomy::Pattern::plain(glam::Vec3::new(0.0, 0.6, 0.1));
     dyed.look.iris = glam::Vec3::X;
     dyed.look.nose = glam::Vec3::ONE;
-    let before = heads.picture(&mut offscreen, &breed, Preset::Clay, |_| ());
-    assert!(before == heads.picture(&mut offscreen, &dyed, Preset::Clay, |_| ()));
-    assert!(before != heads.picture(&mut offscreen, &breed, Preset::Studio, |_| ()));
+    let before = drawn(&mut heads, &mut offscreen, &breed, Preset::Clay, |_| ());
+    assert!(before == drawn(&mut heads, &mut offscreen, &dyed, Preset::Clay, |_| ()));
+    assert!(before != drawn(&mut heads, &mut offscreen, &breed, Preset::Studio, |_| ()));
+}
+
+#[test]
+fn clay_on_a_sheet_has_whiskers() {
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
+    let breed = heads.breed("beagle");
+    let mut sheet_of = |whiskers: bool, dress: Dress| {
+        heads.pipeline.set_layers(Layers { whiskers, ..Layers::default() }).unwrap();
+        let views = vec![View::Portrait];
+        let mut sheet = Sheet::new(views, [SIDE; 2], true, Lens::default(), None, Background::default());
+        sheet.dresses = vec![dress];
+        sheet.add_row(&mut offscreen, &heads.pipeline.update(&breed), "beagle").unwrap();
+        sheet.finish()
+    };
+    assert!(sheet_of(true, Dress::Clay) == sheet_of(false, Dress::Clay));
+    assert!(sheet_of(true, Dress::Skin) != sheet_of(false, Dress::Skin));
 }
 
 #[test]
 fn a_plate_is_lit_from_one_side() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("labrador");
     // From the front, where both halves are alike.
     let mut uneven = |preset: Preset| {
@@ -162,7 +153,7 @@ fn a_plate_is_lit_from_one_side() {
             nothing(d);
             (d.camera.azimuth, d.camera.elevation, d.camera.target.x) = (0.0, 0.0, 0.0);
         };
-        let picture = heads.picture(&mut offscreen, &breed, preset, front);
+        let picture = drawn(&mut heads, &mut offscreen, &breed, preset, front);
         let value = |x: u32, y: u32| f64::from(picture.rgba[4 * (y * SIDE + x) as usize + 1]);
         let rows = (0..SIDE).flat_map(|y| (0..SIDE / 2).map(move |x| (x, y)));
         let differences: Vec<f64> =
@@ -175,23 +166,23 @@ fn a_plate_is_lit_from_one_side() {
 
 #[test]
 fn bone_cannot_be_seen_through_the_skin() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("newfoundland");
-    let bone = brightness(&heads.picture(&mut offscreen, &breed, Preset::XRay, nothing));
-    let coat = brightness(&heads.picture(&mut offscreen, &breed, Preset::Studio, nothing));
+    let bone = brightness(&drawn(&mut heads, &mut offscreen, &breed, Preset::XRay, nothing));
+    let coat = brightness(&drawn(&mut heads, &mut offscreen, &breed, Preset::Studio, nothing));
     assert!(bone > coat + 20.0, "{bone} with bone, {coat} without");
 }
 
 #[test]
 fn pale_coats_are_washed_out_or_dark_ones_drown() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     for preset in [Preset::Studio, Preset::Daylight, Preset::Plate] {
         let pale = heads.breed("samoyed");
-        let picture = heads.picture(&mut offscreen, &pale, preset, nothing);
+        let picture = drawn(&mut heads, &mut offscreen, &pale, preset, nothing);
         let burnt = part(&picture, |p| p[3] == 255 && p[..3].iter().all(|&c| c >= 253));
         assert!(burnt < 0.01, "{}: {burnt} of the samoyed are white", preset.name());
         let dark = heads.breed("newfoundland");
-        let picture = heads.picture(&mut offscreen, &dark, preset, nothing);
+        let picture = drawn(&mut heads, &mut offscreen, &dark, preset, nothing);
         let drowned = part(&picture, |p| p[3] == 255 && p[..3].iter().all(|&c| c <= 6));
         assert!(drowned < 0.05, "{}: {drowned} of the newfoundland are black", preset.name());
     }
@@ -199,10 +190,10 @@ fn pale_coats_are_washed_out_or_dark_ones_drown() {
 
 #[test]
 fn more_samples_make_a_rougher_edge() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("borzoi");
     let mut greys = Samples::ALL.map(|samples| {
-        let picture = heads.picture(&mut offscreen, &breed, Preset::Silhouette, |d| d.samples = samples);
+        let picture = drawn(&mut heads, &mut offscreen, &breed, Preset::Silhouette, |d| d.samples = samples);
         let mut seen = [false; 256];
         pixels(&picture).for_each(|p| seen[usize::from(p[0])] = true);
         seen.iter().filter(|s| **s).count()
@@ -225,13 +216,13 @@ fn too_many_samples_for_the_device_are_drawn_as_fewer() {
 
 #[test]
 fn a_preset_comes_out_otherwise_in_a_second_run() {
-    let (mut heads, mut offscreen) = (Heads::new(), offscreen());
+    let (mut heads, mut offscreen) = (Heads::new(2), offscreen());
     let breed = heads.breed("pug");
-    let first = Preset::ALL.map(|preset| heads.picture(&mut offscreen, &breed, preset, |_| ()));
+    let first = Preset::ALL.map(|preset| drawn(&mut heads, &mut offscreen, &breed, preset, |_| ()));
     drop(offscreen);
-    let (mut heads, mut offscreen) = (Heads::new(), Offscreen::new(Gpu::open_software().unwrap()).unwrap());
+    let (mut heads, mut offscreen) = (Heads::new(2), Offscreen::new(Gpu::open_software().unwrap()).unwrap());
     for (preset, first) in Preset::ALL.into_iter().zip(first) {
-        let again = heads.picture(&mut offscreen, &breed, preset, |_| ());
+        let again = drawn(&mut heads, &mut offscreen, &breed, preset, |_| ());
         assert!(first == again, "{}", preset.name());
     }
 }

@@ -1,5 +1,6 @@
 //! Commands and options, as clap reads them.
 
+use super::turntable::Pattern;
 use super::values::{self, Ground, Setting, Share};
 use crate::frame::Layers;
 use crate::render::{Dress, Lens, Preset, Samples, View as Direction};
@@ -43,6 +44,8 @@ pub(super) enum Command {
     Render(Render),
     /// Draw a contact sheet of breeds as PNG
     Sheet(Sheet),
+    /// Draw a head that turns once round, as numbered PNG
+    Turntable(Turntable),
     /// Draw what every measure does as PNG
     Atlas(Atlas),
     /// Have puppies of two dogs, or random dogs, as breed files
@@ -224,6 +227,42 @@ pub(super) struct Render {
     pub target: Target,
 }
 
+#[derive(Args, Debug)]
+#[command(after_help = "All frames have one scale, and the light stays where it is while the head turns under it.\n\n\
+    Examples:\n  \
+    londra turntable --breed pug -o turn_%04d.png\n  \
+    londra turntable --breed borzoi --frames 360 --size 640x640 --background white -o frames/%03d.png")]
+pub(super) struct Turntable {
+    #[command(flatten)]
+    pub subject: Subject,
+    /// Where it begins, as for render
+    #[arg(
+        long,
+        value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION",
+        default_value = "portrait",
+        allow_hyphen_values = true
+    )]
+    pub view: Direction,
+    /// Pictures of the whole turn, 2 to 3600
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=MOST_FRAMES))]
+    pub frames: u32,
+    /// Width and height of each picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = values::size)]
+    pub size: Size,
+    #[command(flatten)]
+    pub scene: Scene,
+    #[command(flatten)]
+    pub detail: Detail,
+    /// The files to write: %d stands for the number of the frame, from 0 on, %04d for one of at least four digits
+    #[arg(short, long, value_name = "OUT_%04d.png", value_parser = Pattern::parse)]
+    pub output: Pattern,
+    #[command(flatten)]
+    pub report: Report,
+}
+
+/// How many pictures a turn has at most.
+const MOST_FRAMES: i64 = 3600;
+
 /// Width and height, pixels.
 pub(super) type Size = [u32; 2];
 
@@ -249,7 +288,8 @@ pub(super) struct Sheet {
         allow_hyphen_values = true
     )]
     pub views: Views,
-    /// Each view in these, with commas between: clay, skin (colours without hair), coat; without it, as the scene has it
+    /// A column for each view in each of these, with commas between: clay, skin (colours without hair), coat; without it, as
+    /// the scene has it
     #[arg(long, value_name = "clay,skin,coat", value_parser = values::dress(), value_delimiter = ',')]
     pub dress: Vec<Dress>,
     /// Width and height of the whole sheet, pixels; without it, cells of 320 by 320
@@ -258,7 +298,7 @@ pub(super) struct Sheet {
     /// Heads beside each other
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub columns: u32,
-    /// Show every head once in each of these presets, with commas between, instead of in one
+    /// A row for each head in each of these presets, with commas between, instead of in one
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', conflicts_with = "preset")]
     pub presets: Vec<Preset>,
     /// Let every head fill its cell instead of sharing one scale
@@ -363,12 +403,17 @@ const MOST_DOGS: i64 = 1000;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     londra export --breed pug -o pug.glb\n  \
+    londra export --breed dalmatian --textures 2048 --threads 2 -o dalmatian.glb\n  \
     londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
 pub(super) struct Export {
     #[command(flatten)]
     pub subject: Subject,
     #[command(flatten)]
     pub detail: Detail,
+    /// Paint the coat, the leather and the eyes into textures of so many texels a side (a power of two, 256 to 4096), instead of
+    /// colours at the vertices
+    #[arg(long, value_name = "SIZE", value_parser = values::texture)]
+    pub textures: Option<u32>,
     /// Who holds the rights, as it shall stand in the file
     #[arg(long, value_name = "TEXT")]
     pub copyright: Option<String>,

@@ -3,7 +3,7 @@
 use super::args::Export;
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
-use crate::export::{GlbOptions, to_glb};
+use crate::export::{GlbOptions, Textures, to_glb};
 use serde_json::json;
 
 /// Writes one head as binary glTF.
@@ -13,12 +13,20 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_uv(true).map_err(Failure::work)?;
-    let frame = pipeline.update(&breed);
-    let options = GlbOptions { copyright: args.copyright.clone() };
+    pipeline.update(&breed);
+    let frame = pipeline.frame();
+    let textures = match (args.textures, pipeline.canvas()) {
+        (Some(size), Some(canvas)) => {
+            Some(Textures::bake(&frame, &canvas, size, args.detail.threads as usize).map_err(Failure::work)?)
+        }
+        _ => None,
+    };
+    let options = GlbOptions { copyright: args.copyright.clone(), textures };
     let bytes = to_glb(&frame, &rigs.table, &breed, &options).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "bytes": bytes.len(), "breed": breed.id,
         "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
+        "textures": args.textures,
     });
     output::file(&args.target.output, &bytes, args.target.report.json, facts)
 }

@@ -22,6 +22,7 @@ mod rigs;
 mod similarity;
 mod subdivide;
 mod subject;
+mod turntable;
 mod uv;
 mod values;
 mod view;
@@ -58,6 +59,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::View(args) => view::run(&args),
         Command::Render(args) => picture::render(&args),
         Command::Sheet(args) => picture::sheet(&args),
+        Command::Turntable(args) => turntable::run(&args),
         Command::Atlas(args) => atlas::run(&args),
         Command::Breed(args) => breed::run(&args),
         Command::Export(args) => export::run(&args),

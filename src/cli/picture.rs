@@ -4,7 +4,7 @@ use super::args::{Render, Scene, Sheet as SheetArgs, Wires};
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::anatomy::Breed;
-use crate::frame::{Frame, Layers};
+use crate::frame::{Frame, Layers, Pipeline};
 use crate::measure::{Landmark, Side, skin_landmarks};
 use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use crate::rig::Pose;
@@ -17,7 +17,7 @@ const CELL: u32 = 320;
 const HAIR: u32 = 90_000;
 const SHEET_HAIR: u32 = 10_000;
 /// Part of the picture left free around a head.
-const MARGIN: f32 = 0.08;
+pub(super) const MARGIN: f32 = 0.08;
 
 /// Draws one head.
 pub(super) fn render(args: &Render) -> Result<(), Failure> {
@@ -25,11 +25,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    let layers = layers(&args.scene);
-    pipeline.set_layers(layers).map_err(Failure::work)?;
-    let n_strands = hair(&args.scene, HAIR);
-    pipeline.set_hair(n_strands as usize);
-    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
+    prepared(&mut pipeline, &args.scene)?;
     let mut offscreen = offscreen()?;
     let rig = pipeline.rig().clone();
     let frame = pipeline.update(&breed);
@@ -39,22 +35,34 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
         camera.look_at(landmark(&skin_landmarks(&rig, &breed.values, &frame), id)?);
     }
     camera.zoom(args.zoom);
-    let drawing = Drawing {
-        background: background(&args.scene),
-        preset: args.scene.preset,
-        samples: args.scene.samples.unwrap_or_default(),
-        skin_opacity: layers.skin,
-        shading: shading(&args.scene),
-        n_strands,
-        ..Drawing::new(camera)
-    };
-    let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
+    let picture = offscreen.draw(&frame, &drawing(&args.scene, camera), args.size).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
         "strands": frame.coat.map_or(0, |c| c.roots.len()),
     });
     write(args.target.output.as_path(), args.target.report.json, &picture, facts)
+}
+
+/// Gives the frames of one head what the scene shows of it.
+pub(super) fn prepared(pipeline: &mut Pipeline, scene: &Scene) -> Result<(), Failure> {
+    pipeline.set_layers(layers(scene)).map_err(Failure::work)?;
+    pipeline.set_hair(hair(scene, HAIR) as usize);
+    pipeline.set_pose(Pose { lids_closed: scene.lids_closed.0 });
+    Ok(())
+}
+
+/// How one head is drawn in the scene.
+pub(super) fn drawing(scene: &Scene, camera: Camera) -> Drawing {
+    Drawing {
+        background: background(scene),
+        preset: scene.preset,
+        samples: scene.samples.unwrap_or_default(),
+        skin_opacity: layers(scene).skin,
+        shading: shading(scene),
+        n_strands: hair(scene, HAIR),
+        ..Drawing::new(camera)
+    }
 }
 
 /// The camera of a picture of one head, which it fills but for a margin.
@@ -107,8 +115,11 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         (sheet.preset, sheet.background) = (preset, background(&scene));
         (sheet.skin_opacity, sheet.n_strands) = (layers.skin, n_strands);
         for breed in &breeds {
-            let name = if args.presets.is_empty() { &breed.label } else { preset.name() };
-            sheet.add_row(&mut offscreen, &pipeline.update(breed), name).map_err(Failure::work)?;
+            let name = match args.presets.is_empty() {
+                true => breed.label.clone(),
+                false => format!("{}, {}", breed.label, preset.name()),
+            };
+            sheet.add_row(&mut offscreen, &pipeline.update(breed), &name).map_err(Failure::work)?;
         }
     }
     let mut picture = sheet.finish();

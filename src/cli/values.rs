@@ -3,6 +3,7 @@
 use super::args::Lids;
 use crate::anatomy::{colour, nearest};
 use crate::coat;
+use crate::export::TEXTURE_SIZES;
 use crate::render::{Background, Dress, Preset, View};
 use crate::subdiv::Scheme;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -110,6 +111,14 @@ pub(super) fn zoom(text: &str) -> Result<f32, String> {
         return Err(format!("the zoom is {times}, allowed 1 (all of the head) to 40 times"));
     }
     Ok(times as f32)
+}
+
+/// Texels of a texture's side.
+pub(super) fn texture(text: &str) -> Result<u32, String> {
+    let wrong = || format!("a texture of {text} texels cannot be made: take 256, 512, 1024, 2048 or 4096");
+    let size: u32 = text.parse().map_err(|_| wrong())?;
+    let [least, most] = TEXTURE_SIZES;
+    if size.is_power_of_two() && (least..=most).contains(&size) { Ok(size) } else { Err(wrong()) }
 }
 
 /// Degrees, as radians.

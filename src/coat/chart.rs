@@ -5,6 +5,7 @@
 
 use super::Root;
 use crate::anatomy::Region;
+use crate::math::noise;
 use crate::rig::{EAR_RINGS, Rig};
 use crate::subdiv::{Plan, evaluate_once};
 use glam::{Vec3, vec3};
@@ -19,8 +20,30 @@ pub struct Site {
     pub ear: Vec3,
     /// Where hair lies on the base head, about unit length; zero where there is none.
     pub flow: Vec3,
-    /// The seed of the hair that stands there; none for the skin itself.
-    pub hair: Option<u32>,
+    /// What has the colour.
+    pub fibre: Fibre,
+}
+
+/// What has a colour: fibres of one place differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fibre {
+    /// The skin, or many hairs at once.
+    Skin,
+    /// The hair of a seed.
+    Hair(u32),
+    /// One of those that a painter draws, with the one number from 0 to 1 by which it differs from those beside it.
+    Stroke(f32),
+}
+
+impl Fibre {
+    /// By what it differs from its neighbours for a purpose, 0 to 1; nothing where it is none.
+    pub(super) fn own(self, purpose: u32) -> Option<f32> {
+        match self {
+            Self::Skin => None,
+            Self::Hair(seed) => Some(noise::of_number(seed, purpose)),
+            Self::Stroke(own) => Some(own),
+        }
+    }
 }
 
 /// The sites of the vertices of a plan's skin. Made once per topology.
@@ -62,14 +85,25 @@ impl Chart {
 
     /// The site of a vertex.
     pub fn vertex(&self, v: usize) -> Site {
-        Site { place: self.place[v], ear: self.ear[v], flow: self.flow[v], hair: None }
+        Site { place: self.place[v], ear: self.ear[v], flow: self.flow[v], fibre: Fibre::Skin }
+    }
+
+    /// The site of a fibre at a place between vertices: the mean of theirs, by weight.
+    pub fn between(&self, place: &[(usize, f32)], fibre: Fibre) -> Site {
+        let mixed = |values: &[Vec3]| place.iter().fold(Vec3::ZERO, |sum, &(v, weight)| sum + values[v] * weight);
+        Site { place: mixed(&self.place), ear: mixed(&self.ear), flow: mixed(&self.flow), fibre }
     }
 
     /// The site of a hair's root; `triangles` are those that it was made for.
     pub fn root(&self, root: &Root, triangles: &[[u32; 3]]) -> Site {
         let corners = triangles[root.triangle as usize];
         let mixed = |values: &[Vec3]| root.mixed(corners.map(|v| values[v as usize]));
-        Site { place: mixed(&self.place), ear: mixed(&self.ear), flow: mixed(&self.flow), hair: Some(root.seed) }
+        Site {
+            place: mixed(&self.place),
+            ear: mixed(&self.ear),
+            flow: mixed(&self.flow),
+            fibre: Fibre::Hair(root.seed),
+        }
     }
 }
 

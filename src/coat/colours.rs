@@ -1,7 +1,7 @@
 //! The colours of a coat on a skin and on its hair: asked once per look, not per frame.
 
 use super::Root;
-use super::chart::Chart;
+use super::chart::{Chart, Fibre};
 use super::markings::Colouring;
 use crate::anatomy::{MarkingKind, Pattern, Region};
 use crate::rig::Rig;
@@ -32,6 +32,12 @@ impl<'a> Colours<'a> {
     /// Linear colours of the coat at the skin's vertices, one each. The bits do not depend on the number of threads.
     pub fn of_skin(&self, threads: usize) -> Vec<Vec3> {
         filled(self.chart.len(), threads, |v| self.colouring.at(&self.chart.vertex(v), |i| self.patches[i][v]))
+    }
+
+    /// Linear colour of a fibre of the coat at a place between the skin's vertices, given by their weights.
+    pub fn between(&self, place: &[(usize, f32)], fibre: Fibre) -> Vec3 {
+        let patch = |i: usize| place.iter().fold(0.0, |sum, &(v, weight)| sum + self.patches[i][v] * weight);
+        self.colouring.at(&self.chart.between(place, fibre), patch)
     }
 
     /// Linear colours of hairs, one for each root; `triangles` are those that the roots were made for.

@@ -5,9 +5,8 @@
 //! little along the hair, so that they end in tufts. A hair decides for itself on which side of a soft border it stands.
 
 use super::chart::Site;
-use super::noise;
 use crate::anatomy::{Marking, MarkingKind, Pattern};
-use crate::math::ops;
+use crate::math::{noise, ops};
 use glam::{Vec3, vec3};
 
 /// Places of the base head, left side, head units.
@@ -39,6 +38,8 @@ mod place {
 
 /// Millimetres of the default head in head units.
 const MM: f32 = 0.1;
+/// How far from the median plane both sides wander freely, head units.
+const MIDDLE: f32 = 0.6;
 /// What is no place of a marking.
 const OUTSIDE: f32 = -100.0;
 
@@ -102,9 +103,10 @@ impl<'a> Spot<'a> {
         // Both sides wander alike in part: a dog's face is nearly the same left and right.
         let twin = vec3(raw.x.abs(), raw.y, raw.z);
         let flip = vec3(if raw.x < 0.0 { -1.0 } else { 1.0 }, 1.0, 1.0);
-        let slow = noise::smooth(twin / 2.4, 1) * 0.42 * flip + noise::smooth(raw / 2.0, 2) * 0.30;
-        let tuft =
-            0.30 * noise::smooth(raw / 0.26, 3).x + site.hair.map_or(0.0, |h| 0.24 * noise::of_hair(h, 1) - 0.12);
+        // What moves the sides against each other ends at the median plane, or it would tear what lies across it.
+        let apart = vec3((raw.x / MIDDLE).clamp(-1.0, 1.0), 1.0, 1.0);
+        let slow = noise::smooth(twin / 2.4, 1) * 0.42 * apart + noise::smooth(raw / 2.0, 2) * 0.30;
+        let tuft = 0.30 * noise::smooth(raw / 0.26, 3).x + site.fibre.own(1).map_or(0.0, |own| 0.24 * own - 0.12);
         let free = raw + slow + site.flow * tuft;
         let ear = smoothstep(0.15, 0.75, site.ear.x);
         let root = vec3(place::EAR.x * flip.x, place::EAR.y, place::EAR.z);
@@ -115,10 +117,10 @@ impl<'a> Spot<'a> {
     /// From a distance inside a border (head units) to how much is covered; `soft_mm` is the border's width.
     fn within(&self, inside: f32, soft_mm: f32) -> f32 {
         let soft = soft_mm * MM;
-        match self.site.hair {
+        match self.site.fibre.own(2) {
             None => smoothstep(-0.5, 0.5, inside / soft),
             // Each hair is of one colour or the other, nearly.
-            Some(hair) => smoothstep(-0.2, 0.2, inside / soft + 0.8 * (noise::of_hair(hair, 2) - 0.5)),
+            Some(own) => smoothstep(-0.2, 0.2, inside / soft + 0.8 * (own - 0.5)),
         }
     }
 
@@ -370,11 +372,11 @@ impl<'a> Spot<'a> {
             Roan => {
                 let [density, patchy, number, ..] = v;
                 let here = density * (1.0 + patchy * noise::smooth(self.free / 1.7, seed(number)).x);
-                self.site.hair.map_or(here, |hair| if noise::of_hair(hair, seed(number)) < here { 1.0 } else { 0.0 })
+                self.site.fibre.own(seed(number)).map_or(here, |own| if own < here { 1.0 } else { 0.0 })
             }
             Grizzle => {
                 let [density, spread, number, ..] = v;
-                let own = self.site.hair.map_or(0.5, |hair| noise::of_hair(hair, seed(number)));
+                let own = self.site.fibre.own(seed(number)).unwrap_or(0.5);
                 let lock = 0.25 * noise::smooth(self.free / 0.5, seed(number)).x;
                 (density + spread * (own - 0.5 + lock)).clamp(0.0, 1.0)
             }

@@ -7,10 +7,9 @@ mod chart;
 mod colours;
 mod groom;
 mod markings;
-mod noise;
 mod roots;
 
-pub use chart::{Chart, Site};
+pub use chart::{Chart, Fibre, Site};
 pub use colours::Colours;
 pub use groom::groom;
 pub use markings::Colouring;

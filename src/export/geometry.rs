@@ -6,7 +6,7 @@
 //! normals, so no seam shows.
 
 use crate::frame::{MaterialRange, Part};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// Why a frame cannot be written as geometry.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -57,12 +57,13 @@ pub enum GeometryError {
     },
 }
 
-/// Data by kind, each little-endian and dense. Positions and normals have 12 bytes per vertex, texture
+/// Data by kind, each little-endian and dense. Positions and normals have 12 bytes per vertex, tangents 16, texture
 /// coordinates 8, colours 4.
 #[derive(Default)]
 pub(super) struct Geometry {
     pub positions: Vec<u8>,
     pub normals: Vec<u8>,
+    pub tangents: Vec<u8>,
     pub colours: Vec<u8>,
     pub uvs: Vec<u8>,
     pub indices_u16: Vec<u8>,
@@ -75,8 +76,10 @@ pub(super) struct PrimitiveData {
     /// First vertex among all vertices written.
     pub first_vertex: usize,
     pub n_vertices: usize,
-    /// Byte at which its texture coordinates begin, if it has any.
+    /// Byte at which its texture coordinates begin, if it has any; of its tangents; of its colours.
     pub first_uv_byte: Option<usize>,
+    pub first_tangent_byte: Option<usize>,
+    pub first_colour_byte: Option<usize>,
     pub min: Vec3,
     pub max: Vec3,
     /// In `indices_u32` rather than in `indices_u16`.
@@ -88,13 +91,21 @@ pub(super) struct PrimitiveData {
 }
 
 impl Geometry {
-    /// Appends the triangles of one material of a part.
-    pub fn push(&mut self, part: &Part<'_>, range: &MaterialRange) -> Result<PrimitiveData, GeometryError> {
+    /// Appends the triangles of one material of a part. `tangents`: one for each vertex to draw, if it shall have any;
+    /// `coloured`: whether its vertices have colours.
+    pub fn push(
+        &mut self,
+        part: &Part<'_>,
+        range: &MaterialRange,
+        tangents: Option<&[Vec4]>,
+        coloured: bool,
+    ) -> Result<PrimitiveData, GeometryError> {
         check_lengths(part)?;
         let source = indices_of(part, range)?;
         let used = used_vertices(part, source)?;
         let n_vertices = used.len();
 
+        let first_colour_byte = coloured.then_some(self.colours.len());
         let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for &vertex in &used {
             let position = finite(part, vertex, "position", value(part, part.positions, vertex))?;
@@ -103,7 +114,13 @@ impl Geometry {
             (min, max) = (min.min(position), max.max(position));
             push_vec3(&mut self.positions, position);
             push_vec3(&mut self.normals, normal);
-            self.colours.extend(linear_rgba8(colour));
+            if coloured {
+                self.colours.extend(linear_rgba8(colour));
+            }
+        }
+        let first_tangent_byte = tangents.map(|_| self.tangents.len());
+        for tangent in tangents.into_iter().flat_map(|tangents| used.iter().map(|&v| tangents[v])) {
+            self.tangents.extend(tangent.to_array().into_iter().flat_map(f32::to_le_bytes));
         }
         let first_uv_byte = part.uv.map(|_| self.uvs.len());
         if let Some(uv) = part.uv {
@@ -133,6 +150,8 @@ impl Geometry {
             first_vertex,
             n_vertices,
             first_uv_byte,
+            first_tangent_byte,
+            first_colour_byte,
             min,
             max,
             wide,

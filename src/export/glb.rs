@@ -7,7 +7,8 @@
 //! The container is written by hand (glTF 2.0 specification, "GLB File Format Specification"), the JSON by `gltf-json`.
 
 use super::geometry::{Geometry, GeometryError, PrimitiveData};
-use super::materials;
+use super::materials::{self, Maps};
+use super::textures::Textures;
 use crate::anatomy::{Breed, ParamTable, save_breed};
 use crate::frame::{Frame, Material, MaterialRange, Part};
 use gltf_json as json;
@@ -20,11 +21,13 @@ use std::collections::BTreeMap;
 /// Version of what the extras mean (`londra_schema`).
 pub const SCHEMA: u32 = 1;
 
-/// What a file may say beside the head.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What a file may hold beside the head.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GlbOptions {
     /// `asset.copyright`; also in the root's extras, since some tools drop it from the asset.
     pub copyright: Option<String>,
+    /// The frame's textures: what has them has no colours at its vertices.
+    pub textures: Option<Textures>,
 }
 
 /// Why a head cannot be written.
@@ -39,6 +42,14 @@ pub enum GlbError {
         /// Size of the file.
         bytes: usize,
     },
+    /// Textures of another frame.
+    #[error("the textures are those of a skin of {found} vertices, the frame's has {expected}")]
+    Textures {
+        /// Vertices that the textures are of.
+        found: usize,
+        /// Vertices to draw of the frame's skin.
+        expected: usize,
+    },
     /// The JSON could not be written.
     #[error("the glTF description could not be written: {0}")]
     Json(#[from] serde_json::Error),
@@ -47,10 +58,13 @@ pub enum GlbError {
 /// Writes a frame and the breed it shows.
 ///
 /// # Errors
-/// A frame with values that are not finite or do not fit together; more than 4 GiB.
+/// A frame with values that are not finite or do not fit together; textures of another frame; more than 4 GiB.
 pub fn to_glb(frame: &Frame<'_>, table: &ParamTable, breed: &Breed, options: &GlbOptions) -> Result<Vec<u8>, GlbError> {
     let mut writer = Writer::default();
-    let children = writer.parts(frame, breed.look.fur)?;
+    if let Some(textures) = &options.textures {
+        writer.textures(textures);
+    }
+    let children = writer.parts(frame, breed.look.fur, options.textures.as_ref())?;
     let binary = writer.buffer();
 
     let mut root = writer.root;
@@ -93,11 +107,12 @@ fn extras(
     serde_json::value::to_raw_value(&extras)
 }
 
-/// The six kinds of data, in the order in which they lie in the buffer.
+/// The kinds of data, in the order in which they lie in the buffer; pictures come behind them.
 #[derive(Clone, Copy)]
 enum Kind {
     Positions,
     Normals,
+    Tangents,
     Colours,
     Uvs,
     IndicesU16,
@@ -111,18 +126,66 @@ struct Writer {
     materials: BTreeMap<Material, json::Index<json::Material>>,
     /// Accessors and the kind of data each points into; the views are known only at the end.
     kinds: Vec<Kind>,
+    /// The file of each image of the document.
+    images: Vec<Vec<u8>>,
+    skin: Option<Maps>,
+    eye: Option<Maps>,
 }
 
 impl Writer {
+    /// Images and textures; the materials that are made afterwards have them.
+    fn textures(&mut self, textures: &Textures) {
+        let sampler = self.root.push(json::texture::Sampler {
+            mag_filter: Some(Checked::Valid(json::texture::MagFilter::Linear)),
+            min_filter: Some(Checked::Valid(json::texture::MinFilter::LinearMipmapLinear)),
+            wrap_s: Checked::Valid(json::texture::WrappingMode::ClampToEdge),
+            wrap_t: Checked::Valid(json::texture::WrappingMode::ClampToEdge),
+            ..Default::default()
+        });
+        let mut add = |name: &str, png: &[u8]| {
+            self.images.push(png.to_vec());
+            let source = self.root.push(json::Image {
+                // Known when the data before it is complete.
+                buffer_view: None,
+                mime_type: Some(json::image::MimeType("image/png".to_owned())),
+                name: Some(name.to_owned()),
+                uri: None,
+                extensions: None,
+                extras: None,
+            });
+            let name = Some(name.to_owned());
+            self.root.push(json::Texture { name, sampler: Some(sampler), source, extensions: None, extras: None })
+        };
+        let colour = add("skin_colour", &textures.skin_colour);
+        let normal = Some(add("skin_normal", &textures.skin_normal));
+        let eye = textures.eye_colour.as_ref().map(|png| add("eye_colour", png));
+        self.skin = Some(Maps { colour, normal });
+        self.eye = eye.map(|colour| Maps { colour, normal: None });
+    }
+
+    /// The textures of what is made of a material.
+    fn maps(&self, material: Material) -> Option<Maps> {
+        match material {
+            Material::Coat | Material::Nose | Material::Lip | Material::Mouth => self.skin,
+            Material::Sclera | Material::Iris | Material::Pupil => self.eye,
+            _ => None,
+        }
+    }
+
     /// Meshes and nodes of all parts that have triangles.
-    fn parts(&mut self, frame: &Frame<'_>, fur: f32) -> Result<Vec<json::Index<json::Node>>, GlbError> {
+    fn parts(
+        &mut self,
+        frame: &Frame<'_>,
+        fur: f32,
+        textures: Option<&Textures>,
+    ) -> Result<Vec<json::Index<json::Node>>, GlbError> {
         // Materials stand in the order of the enum, whatever the order of the parts.
         let all = frame.parts.iter().flat_map(ranges).filter(|r| r.count > 0);
         let mut used: Vec<Material> = all.map(|r| r.material).collect();
         used.sort();
         used.dedup();
         for material in used {
-            let index = self.root.push(materials::material(material, fur));
+            let index = self.root.push(materials::material(material, fur, self.maps(material).as_ref()));
             self.materials.insert(material, index);
         }
         self.name_extensions();
@@ -130,8 +193,16 @@ impl Writer {
         let mut children = Vec::new();
         for part in &frame.parts {
             let mut primitives = Vec::new();
+            let tangents = textures.and_then(|textures| textures.tangents_of(part));
+            if let Some(found) = tangents.map(<[_]>::len) {
+                let expected = part.uv.map_or(0, |uv| uv.vertices.len());
+                if found != expected {
+                    return Err(GlbError::Textures { found, expected });
+                }
+            }
             for range in ranges(part).iter().filter(|r| r.count > 0) {
-                let data = self.geometry.push(part, range)?;
+                let coloured = part.uv.is_none() || self.maps(range.material).is_none();
+                let data = self.geometry.push(part, range, tangents, coloured)?;
                 primitives.push(self.primitive(&data, range.material));
             }
             if primitives.is_empty() {
@@ -159,8 +230,11 @@ impl Writer {
         let float = ComponentType::F32;
         let position = self.accessor(Kind::Positions, first * 12, count, float, Type::Vec3, ends);
         let normal = self.accessor(Kind::Normals, first * 12, count, float, Type::Vec3, None);
-        let colour = self.accessor(Kind::Colours, first * 4, count, ComponentType::U8, Type::Vec4, None);
-        self.root.accessors[colour.value()].normalized = true;
+        let colour = data.first_colour_byte.map(|first| {
+            let colour = self.accessor(Kind::Colours, first, count, ComponentType::U8, Type::Vec4, None);
+            self.root.accessors[colour.value()].normalized = true;
+            colour
+        });
         let (kind, component) = match data.wide {
             true => (Kind::IndicesU32, ComponentType::U32),
             false => (Kind::IndicesU16, ComponentType::U16),
@@ -170,8 +244,14 @@ impl Writer {
         let mut attributes = BTreeMap::from([
             (Checked::Valid(json::mesh::Semantic::Positions), position),
             (Checked::Valid(json::mesh::Semantic::Normals), normal),
-            (Checked::Valid(json::mesh::Semantic::Colors(0)), colour),
         ]);
+        if let Some(colour) = colour {
+            attributes.insert(Checked::Valid(json::mesh::Semantic::Colors(0)), colour);
+        }
+        if let Some(first) = data.first_tangent_byte {
+            let tangent = self.accessor(Kind::Tangents, first, count, float, Type::Vec4, None);
+            attributes.insert(Checked::Valid(json::mesh::Semantic::Tangents), tangent);
+        }
         if let Some(first) = data.first_uv_byte {
             let uv = self.accessor(Kind::Uvs, first, count, float, Type::Vec2, None);
             attributes.insert(Checked::Valid(json::mesh::Semantic::TexCoords(0)), uv);
@@ -216,18 +296,19 @@ impl Writer {
 
     /// Joins the data to one buffer, with a view for each kind that occurs, and points the accessors at their views.
     fn buffer(&mut self) -> Vec<u8> {
-        let Geometry { positions, normals, colours, uvs, indices_u16, indices_u32, .. } =
+        let Geometry { positions, normals, tangents, colours, uvs, indices_u16, indices_u32, .. } =
             std::mem::take(&mut self.geometry);
-        let data = [positions, normals, colours, uvs, indices_u16, indices_u32];
-        let mut views = [None; 6];
+        let data = [positions, normals, tangents, colours, uvs, indices_u16, indices_u32];
+        let mut views = [None; 7];
         let mut binary = Vec::new();
         for (slot, bytes) in data.iter().enumerate().filter(|(_, bytes)| !bytes.is_empty()) {
             let (name, stride) = match slot {
                 0 => ("positions", Some(Stride(12))),
                 1 => ("normals", Some(Stride(12))),
-                2 => ("colours", Some(Stride(4))),
-                3 => ("uvs", Some(Stride(8))),
-                4 => ("indices_u16", None),
+                2 => ("tangents", Some(Stride(16))),
+                3 => ("colours", Some(Stride(4))),
+                4 => ("uvs", Some(Stride(8))),
+                5 => ("indices_u16", None),
                 _ => ("indices_u32", None),
             };
             let target = if stride.is_some() { Target::ArrayBuffer } else { Target::ElementArrayBuffer };
@@ -242,6 +323,21 @@ impl Writer {
                 extras: None,
             }));
             binary.extend_from_slice(bytes);
+            pad(&mut binary, 0);
+        }
+        for (i, png) in self.images.iter().enumerate() {
+            let view = self.root.push(json::buffer::View {
+                buffer: json::Index::new(0),
+                byte_length: USize64::from(png.len()),
+                byte_offset: Some(USize64::from(binary.len())),
+                byte_stride: None,
+                name: self.root.images[i].name.clone(),
+                target: None,
+                extensions: None,
+                extras: None,
+            });
+            self.root.images[i].buffer_view = Some(view);
+            binary.extend_from_slice(png);
             pad(&mut binary, 0);
         }
         for (accessor, kind) in self.root.accessors.iter_mut().zip(&self.kinds) {

@@ -1,7 +1,7 @@
 //! What each material looks like elsewhere.
 //!
 //! Metallic-roughness carries the look alone; sheen, clearcoat and refraction refine it where a client knows them and are
-//! never required. Base colours are white: the colour is in the vertices.
+//! never required. Base colours are white: the colour is in the vertices or in a texture.
 
 use crate::frame::Material;
 use gltf_json as json;
@@ -28,8 +28,17 @@ pub(super) const fn name(material: Material) -> &'static str {
     }
 }
 
+/// The textures of a material.
+#[derive(Clone, Copy)]
+pub(super) struct Maps {
+    /// Base colours.
+    pub colour: json::Index<json::Texture>,
+    /// Normals.
+    pub normal: Option<json::Index<json::Texture>>,
+}
+
 /// The material of a head with that much fur (0 bare to 1 haired), and the extensions it uses.
-pub(super) fn material(material: Material, fur: f32) -> json::Material {
+pub(super) fn material(material: Material, fur: f32, maps: Option<&Maps>) -> json::Material {
     let roughness = match material {
         Material::Coat | Material::Cap => 0.95,
         Material::Lip | Material::Bone | Material::Tongue | Material::Whisker => 0.5,
@@ -43,8 +52,21 @@ pub(super) fn material(material: Material, fur: f32) -> json::Material {
         pbr_metallic_roughness: json::material::PbrMetallicRoughness {
             metallic_factor: json::material::StrengthFactor(0.0),
             roughness_factor: json::material::StrengthFactor(roughness),
+            base_color_texture: maps.map(|maps| json::texture::Info {
+                index: maps.colour,
+                tex_coord: 0,
+                extensions: None,
+                extras: None,
+            }),
             ..Default::default()
         },
+        normal_texture: maps.and_then(|maps| maps.normal).map(|index| json::material::NormalTexture {
+            index,
+            scale: 1.0,
+            tex_coord: 0,
+            extensions: None,
+            extras: None,
+        }),
         extensions: extensions(material, fur).map(|others| json::extensions::material::Material { others }),
         ..Default::default()
     }

@@ -3,6 +3,8 @@
 mod geometry;
 mod glb;
 mod materials;
+mod textures;
 
 pub use geometry::GeometryError;
 pub use glb::{GlbError, GlbOptions, SCHEMA, to_glb};
+pub use textures::{TEXTURE_SIZES, TextureError, Textures};

@@ -34,6 +34,11 @@ impl Dyes {
         self.dyes.clear();
     }
 
+    /// The chart of the level, once something has been painted.
+    pub(super) fn known_chart(&self) -> Option<&Chart> {
+        self.chart.as_ref()
+    }
+
     /// Linear colours of a look on every vertex of the plan's skin and every root; `triangles` are those of the roots.
     #[expect(clippy::too_many_arguments, reason = "what is painted and where it goes")]
     pub(super) fn paint(

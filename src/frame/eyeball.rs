@@ -21,6 +21,21 @@ pub struct Eyeball {
 }
 
 impl Eyeball {
+    /// Where the pupil ends, as a part of the way from the axis of gaze to the limbus.
+    pub const PUPIL: f32 = PUPIL / IRIS;
+
+    /// What a place of the eyeball's texture (0 to 1, from the top left) shows: the unit direction from the centre in the eye's
+    /// own axes, and its angle off the gaze as a part of the limbus'.
+    pub fn on_texture(&self, place: Vec2) -> (Vec3, f32) {
+        let off = vec2(place.x - 0.5, 0.5 - place.y);
+        let degrees = (off.length() / TEXTURE_RADIUS * 180.0).min(180.0);
+        let [cos_turn, sin_turn] = (off.normalize_or(Vec2::X)).to_array();
+        let limbus = Eye::limbus_at(self.eye.limbus(), sin_turn);
+        let angle = angle(degrees, limbus);
+        let (sin, cos) = ops::sin_cos(angle);
+        (vec3(sin * cos_turn, sin * sin_turn, cos), angle / limbus)
+    }
+
     /// `margins`: of the lids, metres.
     pub(super) fn new(eye: Eye, iris: Vec3, margins: [Vec3; 12]) -> Self {
         let lids = margins.map(|p| {
@@ -40,6 +55,15 @@ const RINGS: [f32; 21] = [
     0.0, 8.0, 17.0, PUPIL, PUPIL, 29.0, 33.0, 38.0, 42.5, 46.0, 53.0, IRIS, IRIS, 64.0, 69.0, 75.0, 84.0, 100.0, 120.0,
     145.0, 180.0,
 ];
+
+/// How far the pole behind lies from the middle of the texture.
+const TEXTURE_RADIUS: f32 = 0.49;
+
+/// The angle off the gaze of what lies so many degrees off it on the eye whose limbus is at [`IRIS`], radians.
+fn angle(degrees: f32, limbus: f32) -> f32 {
+    let beyond = (degrees - IRIS) / (180.0 - IRIS);
+    if beyond <= 0.0 { degrees / IRIS * limbus } else { limbus + beyond * (core::f32::consts::PI - limbus) }
+}
 
 /// Number of vertices.
 pub(super) const N_VERTICES: usize = RINGS.len() * SEGMENTS;
@@ -105,7 +129,7 @@ pub(super) fn uv(topology: &PartTopology) -> Uv {
     let place = |v: usize| {
         let (ring, segment) = (v / SEGMENTS, v % SEGMENTS);
         let (sin, cos) = ops::sin_cos(core::f32::consts::TAU * segment as f32 / SEGMENTS as f32);
-        let radius = 0.49 * RINGS[ring] / 180.0;
+        let radius = TEXTURE_RADIUS * RINGS[ring] / 180.0;
         vec2(0.5 + radius * cos, 0.5 - radius * sin)
     };
     Uv {
@@ -135,8 +159,7 @@ pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
         let limbus = Eye::limbus_at(limbus, sin_turn);
         for (i, &degrees) in RINGS.iter().enumerate() {
             let t = degrees / IRIS;
-            let beyond = (degrees - IRIS) / (180.0 - IRIS);
-            let angle = if beyond <= 0.0 { t * limbus } else { limbus + beyond * (half_turn - limbus) };
+            let angle = angle(degrees, limbus);
             let (sin, cos) = (ops::sin(angle), ops::cos(angle));
             let [r, slope] = Eye::profile(t, limbus);
             let out = side * sin + g * cos;

@@ -1,5 +1,6 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
+mod canvas;
 mod dyes;
 mod eyeball;
 mod eyelids;
@@ -13,6 +14,7 @@ mod uv;
 mod values;
 mod whiskers;
 
+pub use canvas::Canvas;
 pub use eyeball::Eyeball;
 pub use layers::{Layers, LayersError};
 pub use parts::{Frame, Material, MaterialRange, Part, PartTopology, Revisions};

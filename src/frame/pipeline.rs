@@ -4,6 +4,7 @@
 //! Lifetimes: the plan of a level until another is asked for; shape buffers written when the values changed; colours when
 //! the look did.
 
+use super::canvas::Canvas;
 use super::dyes::Dyes;
 use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
@@ -321,6 +322,12 @@ impl Pipeline {
             coat: self.coat(),
             revisions: self.revisions,
         }
+    }
+
+    /// The colours of the last frame's skin between its vertices; none before the first frame.
+    pub fn canvas(&self) -> Option<Canvas<'_>> {
+        let (chart, look) = (self.dyes.known_chart()?, self.look.as_ref()?);
+        Some(Canvas::new(&self.rig, &self.plan, chart, look, [&self.control_leathers, &self.control_bare]))
     }
 
     fn coat(&self) -> Option<Coat<'_>> {

@@ -106,6 +106,11 @@ pub(super) fn paint(rig: &Rig, look: &Look, leathers: &mut [Vec3], bare: &mut [V
 /// them, refined.
 pub(super) fn put_leather_on(coat: &mut [Vec3], leathers: &[Vec3], bare: &[Vec3]) {
     for ((colour, leather), bare) in coat.iter_mut().zip(leathers).zip(bare) {
-        *colour = *colour * (1.0 - bare.x.clamp(0.0, 1.0)) + *leather;
+        *colour = leathered(*colour, *leather, *bare);
     }
+}
+
+/// A coat's colour with leather on it, as much as shows.
+pub(super) fn leathered(coat: Vec3, leather: Vec3, bare: Vec3) -> Vec3 {
+    coat * (1.0 - bare.x.clamp(0.0, 1.0)) + leather
 }

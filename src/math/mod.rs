@@ -2,5 +2,6 @@
 
 pub mod fnv;
 pub mod frames;
+pub mod noise;
 pub mod ops;
 pub mod rng;

@@ -214,6 +214,28 @@ impl Camera {
         self.distance = distance;
     }
 
+    /// As [`fit`](Self::fit), for a camera that goes round the vertical through the middle of the points: where they are all in
+    /// the picture from everywhere.
+    pub fn fit_round<'a>(&mut self, points: impl Iterator<Item = &'a Vec3> + Clone, aspect: f32, margin: f32) {
+        const DIRECTIONS: usize = 48;
+        let carried = self.world_from_head();
+        let stood = points.map(move |&p| carried * p);
+        let (low, high) = stood.clone().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
+        if !(low.is_finite() && high.is_finite()) {
+            return;
+        }
+        self.target = (low + high) * 0.5;
+        let tangent = self.lens.half_height() * (1.0 - margin);
+        let tangents = Vec2::new(tangent * aspect, tangent);
+        let round = (0..DIRECTIONS).map(|k| {
+            let turned = Self { azimuth: std::f32::consts::TAU * k as f32 / DIRECTIONS as f32, ..*self };
+            let [right, up, back] = turned.axes_in_world();
+            let seen = Mat3::from_cols(right, up, back).transpose();
+            stood.clone().map(|p| self.needed_distance(seen * (p - self.target), tangents)).fold(1e-3, f32::max)
+        });
+        self.distance = round.fold(1e-3, f32::max);
+    }
+
     /// Puts a point (metres, head) into the middle of the picture; the camera keeps its direction and distance.
     pub fn look_at(&mut self, point: Vec3) {
         self.target = self.world_from_head() * point;
@@ -305,6 +327,23 @@ mod tests {
                     points.iter().map(|&p| clip.project_point3(p).truncate().abs().max_element()).fold(0.0, f32::max);
                 assert!((0.85..0.93).contains(&most), "{view:?} {lens:?}: {most}");
             }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_goes_round_loses_a_point_or_stands_too_far() {
+        let points = [Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.0, 0.2, 0.3), Vec3::new(-0.1, -0.1, -0.05)];
+        for lens in [Lens::default(), Lens::Orthographic] {
+            let mut camera = Camera::at(View::Portrait, None, lens);
+            camera.fit_round(points.iter(), 1.0, 0.1);
+            let mut most = 0.0_f32;
+            for degrees in 0..360 {
+                camera.azimuth = (degrees as f32).to_radians();
+                let clip = camera.clip_from_head(1.0, 1.0);
+                let outermost = points.iter().map(|&p| clip.project_point3(p).truncate().abs().max_element());
+                most = outermost.fold(most, f32::max);
+            }
+            assert!((0.85..0.93).contains(&most), "{lens:?}: {most}");
         }
     }
 

@@ -12,7 +12,7 @@ use super::picture::Picture;
 use super::preset::Preset;
 use super::samples::Samples;
 use super::text;
-use crate::frame::Frame;
+use crate::frame::{Frame, Material};
 
 /// Part of a cell left free around the head.
 const MARGIN: f32 = 0.06;
@@ -144,8 +144,12 @@ impl Sheet {
             if self.dresses.is_empty() {
                 cells.push(offscreen.draw(frame, &drawing, self.cell)?);
             }
-            for dress in &self.dresses {
-                cells.push(offscreen.draw(frame, &dress.put_on(drawing), self.cell)?);
+            for &dress in &self.dresses {
+                let drawing = dress.put_on(drawing);
+                cells.push(match dress {
+                    Dress::Clay => without_whiskers(offscreen, frame, &drawing, self.cell)?,
+                    Dress::Skin | Dress::Coat => offscreen.draw(frame, &drawing, self.cell)?,
+                });
             }
         }
         self.rows.push((name.to_owned(), cells));
@@ -200,6 +204,21 @@ impl Sheet {
         }
         sheet
     }
+}
+
+/// As clay is shown everywhere. The head is another one to the painter, before and behind.
+fn without_whiskers(
+    offscreen: &mut Offscreen,
+    frame: &Frame<'_>,
+    drawing: &Drawing,
+    size: [u32; 2],
+) -> Result<Picture, DrawError> {
+    let mut bare = frame.clone();
+    bare.parts.retain(|part| part.topology.ranges.iter().any(|range| range.material != Material::Whisker));
+    offscreen.forget();
+    let picture = offscreen.draw(&bare, drawing, size);
+    offscreen.forget();
+    picture
 }
 
 /// The largest size up to `size` at which a word stays within `width` pixels, with a little room beside it.

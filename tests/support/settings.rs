@@ -1,6 +1,7 @@
 //! Heads to test: the rig, its breeds, and seeded settings of the sliders.
 
 use londra::anatomy::{Breed, ParamTable, library};
+use londra::frame::Pipeline;
 use londra::math::rng::Rng;
 use londra::rig::Rig;
 use std::sync::Arc;
@@ -53,6 +54,14 @@ impl World {
     #[allow(dead_code)] // not every test file asks
     pub fn breed(&self, id: &str) -> &Breed {
         self.breeds.iter().find(|b| b.id == id).unwrap_or_else(|| panic!("no breed {id}"))
+    }
+
+    /// A pipeline of a level of subdivision, with so many strands of hair.
+    #[allow(dead_code)]
+    pub fn pipeline(&self, level: u32, n_strands: usize) -> Pipeline {
+        let mut pipeline = Pipeline::new(self.rig.clone(), level).unwrap_or_else(|e| panic!("{e}"));
+        pipeline.set_hair(n_strands);
+        pipeline
     }
 
     /// The breeds that span the others.

@@ -1,4 +1,4 @@
-//! Noise of markings: the same bits on every machine, from whole numbers alone.
+//! Noise that is bound to places: the same bits on every machine, from whole numbers alone.
 
 use glam::{IVec3, Vec3};
 
@@ -20,23 +20,23 @@ fn scrambled(cell: IVec3, seed: u32) -> [u32; 3] {
 }
 
 /// A word as a number from 0 to below 1.
-pub(super) fn unit(word: u32) -> f32 {
+fn unit(word: u32) -> f32 {
     (word >> 8) as f32 / (1 << 24) as f32
 }
 
 /// Three random numbers for a cell, each 0 to below 1.
-pub(super) fn cell(cell: IVec3, seed: u32) -> Vec3 {
+pub fn cell(cell: IVec3, seed: u32) -> Vec3 {
     Vec3::from(scrambled(cell, seed).map(unit))
 }
 
-/// A random number for a hair and a purpose, 0 to below 1.
-pub(super) fn of_hair(hair: u32, purpose: u32) -> f32 {
-    let [x, ..] = scrambled(IVec3::new(hair as i32, (hair >> 7) as i32, purpose as i32), 0x68_61_69_72);
+/// A random number for a thing that has a number of its own, such as a hair, and a purpose; 0 to below 1.
+pub fn of_number(number: u32, purpose: u32) -> f32 {
+    let [x, ..] = scrambled(IVec3::new(number as i32, (number >> 7) as i32, purpose as i32), 0x68_61_69_72);
     unit(x)
 }
 
 /// Smooth noise with blobs one unit across: three independent channels, each -1 to 1, its mean 0.
-pub(super) fn smooth(place: Vec3, seed: u32) -> Vec3 {
+pub fn smooth(place: Vec3, seed: u32) -> Vec3 {
     let floor = place.floor();
     let base = floor.as_ivec3();
     let f = place - floor;
