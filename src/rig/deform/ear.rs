@@ -21,6 +21,9 @@ const END: f32 = 0.955;
 const START: f32 = -0.55;
 /// How deep the base is for its width.
 const OVAL: f32 = 0.62;
+/// How much the first ring is held to the base's shape. The more of the turn between base and leather it takes, the less is
+/// left for the second; the rest is spread over the root.
+const HOLD: f32 = 0.7;
 /// How often a ring is laid anew.
 const LAYING: usize = 5;
 /// Least distance of the leather from the median plane, head units.
@@ -118,7 +121,7 @@ impl Section {
             let column = place / 2;
             let k = if face < 0.0 { column } else { (12 - column) % 12 };
             // The inner face stays hollow in its middle, as the concha is; beside its margins it goes with the outer one.
-            let hold = if face < 0.0 { 0.85 - base.hollow * (1.0 - smoothstep(0.4, 0.95, u.abs())) } else { 0.85 };
+            let hold = if face < 0.0 { HOLD - base.hollow * (1.0 - smoothstep(0.4, 0.95, u.abs())) } else { HOLD };
             // The base's shape turns with the leather; in the bow of a fold it is as flat as there is room.
             let own = base.oval[k];
             let deep = if own.z < 0.0 { own.z / (1.0 - own.z * self.bend / 0.6) } else { own.z };
@@ -228,7 +231,7 @@ fn march(e: &EarProportions, root: Vec3) -> [Section; SECTIONS] {
     };
     let parts = parts(e);
     // The leather grows out of its base over this part of its length.
-    let grown = (0.6 * e.base / e.length.max(0.1)).clamp(0.18, 0.36);
+    let grown = (0.8 * e.base / e.length.max(0.1)).clamp(0.18, 0.45);
     let mut sections = [Section::default(); SECTIONS];
     let (mut p, mut ring) = (root, 0);
     // The sweep turns the leather about the transverse axis: back for rose ears, forward for button ears. Wide leather

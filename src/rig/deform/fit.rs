@@ -24,7 +24,7 @@ const LEAP_RATIO: f32 = 0.9;
 /// Longest leap, head units.
 const LEAP: f32 = 1.5;
 
-const KEEP_EAR: f32 = 0.08;
+const KEEP_EAR: f32 = 0.1;
 
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
 #[derive(Clone, Debug)]
