@@ -80,7 +80,7 @@ impl Space {
         self.condition(base, locks, &mut deviates, rng);
         let point: Vec<f64> = self.mean.iter().zip(&self.factor).map(|(m, row)| m + dot(row, &deviates)).collect();
         let mut dog = self.dog(table, &point);
-        let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair);
+        let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair.clone());
         dog.look = Look { hair, ..Look::of(random_pattern(rng)) };
         locks.hold(base, &mut dog);
         dog

@@ -26,8 +26,9 @@ pub(super) enum TurnError {
     Pipeline(#[from] PipelineError),
 }
 
-/// Strands of hair on a window's head at first, where a graphics card draws it.
+/// Strands of hair on a window's head at first, where a graphics card draws it and where a processor does.
 const HAIR: u32 = 90_000;
+const HAIR_BY_SOFTWARE: u32 = 0;
 
 /// What a window shows and what draws it; as long as the device.
 pub(super) struct Turn {
@@ -55,15 +56,15 @@ pub(super) struct Recorded {
 }
 
 impl Turn {
-    /// `format`: of what the panels are painted on.
+    /// `format`: of what the panels are painted on; `n_strands`: of hair, as many as suit the driver if nobody says.
     pub(super) fn new(
         gpu: Gpu,
         format: wgpu::TextureFormat,
         sources: &ShaderSources,
         mut state: EditorState,
+        n_strands: Option<u32>,
     ) -> Result<Self, TurnError> {
-        // A software driver would take seconds for a picture.
-        state.n_strands = if gpu.is_software() { 0 } else { HAIR };
+        state.n_strands = n_strands.unwrap_or(if gpu.is_software() { HAIR_BY_SOFTWARE } else { HAIR });
         let context = egui::Context::default();
         panels::set_fonts(&context);
         let mut renderer = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
@@ -161,6 +162,7 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
         skin_opacity: state.layers.skin,
         // Hair would hide the lines.
         n_strands: if state.shading == Shading::Shaded && state.preset().has_hair() { state.n_strands } else { 0 },
+        condition: state.condition,
         samples: Samples::FEWEST,
         pixels_per_point,
     }

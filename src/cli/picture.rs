@@ -46,13 +46,14 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
         skin_opacity: layers.skin,
         shading: shading(&args.scene),
         n_strands,
+        condition: args.scene.fur.condition(),
         ..Drawing::new(camera)
     };
     let picture = offscreen.draw(&frame, &drawing, args.size).map_err(Failure::work)?;
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
-        "strands": frame.coat.map_or(0, |c| c.roots.len()),
+        "strands": frame.coat.map_or(0, |_| n_strands),
     });
     write(args.target.output.as_path(), args.target.report.json, &picture, facts)
 }
@@ -106,6 +107,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         pipeline.set_hair(n_strands as usize);
         (sheet.preset, sheet.background) = (preset, background(&scene));
         (sheet.skin_opacity, sheet.n_strands) = (layers.skin, n_strands);
+        sheet.condition = scene.fur.condition();
         for breed in &breeds {
             let name = if args.presets.is_empty() { &breed.label } else { preset.name() };
             sheet.add_row(&mut offscreen, &pipeline.update(breed), name).map_err(Failure::work)?;
@@ -170,7 +172,7 @@ fn landmark(all: &[Landmark], word: &str) -> Result<Vec3, Failure> {
 
 /// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces and the preset has hair.
 fn hair(scene: &Scene, otherwise: u32) -> u32 {
-    scene.hair.unwrap_or(if scene.wireframe.is_some() || !scene.preset.has_hair() { 0 } else { otherwise })
+    scene.fur.hair.unwrap_or(if scene.wireframe.is_some() || !scene.preset.has_hair() { 0 } else { otherwise })
 }
 
 fn shading(scene: &Scene) -> Shading {

@@ -140,9 +140,9 @@ impl<'a> Frame<'a> {
     pub fn outline(&self) -> Vec<Vec3> {
         let mut points: Vec<Vec3> = self.body().flat_map(|p| p.positions).copied().collect();
         if let (Some(coat), Some(skin)) = (&self.coat, self.parts.first()) {
-            for (v, growth) in coat.growth.iter().enumerate() {
+            for (v, groom) in coat.grooms.iter().enumerate() {
                 let along = skin.flow[v].normalize_or_zero() * 0.3 + skin.normals[v] * 0.5;
-                points.push(skin.positions[v] + along * growth.x);
+                points.push(skin.positions[v] + along * groom.length);
             }
         }
         points
