@@ -10,7 +10,8 @@
 
 // What the run is made of. One pipeline for each, since software drivers walk through every branch they are given.
 override kind: u32 = 0u;
-// Leave out what costs most.
+// For drivers on a processor: haired skin is shaded at its vertices, which stand about as close as pixels, and lights have
+// hard shadows.
 override draft: bool = false;
 // Blend with what lies behind, by the skin's opacity; edges, where one looks along it, hide more.
 override seen_through: bool = false;
@@ -53,13 +54,59 @@ struct Varying {
     @location(7) comb: vec4<f32>,
     @location(8) nature: vec4<f32>,
     @location(9) age: vec4<f32>,
+    // Of haired skin in a draft: light that leaves it, as it falls on the film.
+    @location(10) shaded: vec3<f32>,
 }
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
     let clip = globals.clip_from_head * vec4<f32>(in.position, 1.0);
     let p = in.position;
-    return Varying(clip, p, in.normal, in.flow, in.colour, in.surface, in.rest, in.growth, in.comb, in.nature, in.age);
+    var out =
+        Varying(clip, p, in.normal, in.flow, in.colour, in.surface, in.rest, in.growth, in.comb, in.nature, in.age, vec3<f32>(0.0));
+    if draft && kind == COAT {
+        // A vertex stands for what lies between it and its neighbours.
+        out.shaded = encoded(film(haired(point(out, true), out, VERTEX_SPACING)));
+    }
+    return out;
+}
+
+// Between vertices of a head that is refined four times, metres of the base head.
+const VERTEX_SPACING: f32 = 0.0006;
+
+// Where a surface is seen.
+fn point(in: Varying, front: bool) -> Point {
+    var view = globals.eye.xyz;
+    if globals.eye.w > 0.5 {
+        view = unit(globals.eye.xyz - in.position, vec3<f32>(0.0, 0.0, 1.0));
+    }
+    var normal = unit(in.normal, view);
+    if !front {
+        normal = -normal;
+    }
+    let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
+    return Point(in.position, normal, view, shadow(in.position, normal), rim_shadow(in.position, normal), open);
+}
+
+// Haired skin, with what is bare or moist of it. `pixel`: metres of the base head that one value stands for.
+fn haired(at: Point, in: Varying, pixel: f32) -> vec3<f32> {
+    let colour = max(in.colour, vec3<f32>(0.0));
+    let fur = clamp(in.surface.x, 0.0, 1.0);
+    let gloss = clamp(in.surface.y, 0.0, 1.0);
+    var light = coat(at, colour, in, fur, pixel);
+    if is_made_of(CLAY) {
+        return CLAY_COLOUR * diffuse(at, 0.15);
+    }
+    if is_made_of(INK) {
+        return vec3<f32>(0.0);
+    }
+    if draft {
+        return light;
+    }
+    // Bare or moist margins shade off into the coat.
+    light += moisture(at, gloss * (1.0 - fur));
+    // Hair keeps most of it to itself.
+    return light + glow(at, colour) * (1.0 - 0.7 * fur);
 }
 
 // One point to be shaded, in the head's frame.
@@ -98,6 +145,10 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
 
 // How much of the rim light reaches a place.
 fn rim_shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
+    // Its map is empty in a draft.
+    if draft {
+        return 1.0;
+    }
     let slope = 1.0 - max(dot(normal, globals.rim.xyz), 0.0);
     let out = position + normal * globals.measures.x * (0.003 + 0.006 * slope);
     let place = globals.rim_from_head * vec4<f32>(out, 1.0);
@@ -113,7 +164,9 @@ fn glow(p: Point, colour: vec3<f32>) -> vec3<f32> {
     let key_texel = vec2<i32>(by_key.xy * vec2<f32>(textureDimensions(shadow_map)));
     let rim_texel = vec2<i32>(by_rim.xy * vec2<f32>(textureDimensions(rim_map)));
     let through_key = transmitted((by_key.z - textureLoad(shadow_map, key_texel, 0)) * depth + 0.0006);
-    let through_rim = transmitted((by_rim.z - textureLoad(rim_map, rim_texel, 0)) * depth + 0.0006);
+    let rim_depth = textureLoad(rim_map, rim_texel, 0);
+    // A map in which nothing is, as in a draft, tells nothing.
+    let through_rim = transmitted((by_rim.z - rim_depth) * depth + 0.0006) * select(0.0, 1.0, rim_depth < 1.0);
     let key = globals.key_light.rgb * through_key * smoothstep(-0.05, 0.6, -dot(p.normal, globals.key.xyz));
     let rim = globals.rim_light.rgb * through_rim * smoothstep(-0.05, 0.6, -dot(p.normal, globals.rim.xyz));
     return (key + rim) * sqrt(colour) * 0.6;
@@ -152,22 +205,23 @@ fn lobe(p: Point, light: vec3<f32>, roughness: f32) -> f32 {
 
 // White noise smeared along the hair, minus its mean; about -1 to 1, four independent channels. `width` is that of a
 // streak in metres. Line integral convolution after Cabral and Leedom (1993), along the tangent.
-// Curls bend the streaks into rings.
-fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32, curl: f32) -> vec4<f32> {
-    if draft || globals.coat.x >= 1.0 {
+// Curls bend the streaks into rings. `part`: of it that is wanted.
+fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32, curl: f32, part: f32) -> vec4<f32> {
+    if part <= 0.0 {
         return vec4<f32>(0.0);
     }
     let scale = SKEW * (1.0 / (width * 64.0));
     let straight = 1.0 - 0.8 * curl;
     let aside = unit(cross(along, position), vec3<f32>(1.0, 0.0, 0.0));
     var sum = vec4<f32>(0.0);
-    for (var i = 0; i < 7; i++) {
+    // A draft has the middle ones.
+    for (var i = select(0, 2, draft); i < select(7, 5, draft); i++) {
         let s = (f32(i) - 3.0) * 1.45 * width;
         let turn = f32(i) * 0.9;
         let ring = (aside * sin(turn) + along * cos(turn)) * (curl * 3.0 * width);
         sum += textureSampleLevel(noise_block, noise_sampler, scale * (position + along * (s * straight) + ring), 0.0);
     }
-    return (sum / 7.0 - 0.5) * 7.6;
+    return (sum / select(7.0, 3.0, draft) - 0.5) * (select(7.6, 5.0, draft) * part);
 }
 
 // Smooth noise of blobs `width` metres across, about -1 to 1; none where strands have their own.
@@ -217,7 +271,7 @@ fn cobbles(position: vec3<f32>) -> vec4<f32> {
 // ---- surfaces --------------------------------------------------------------------------------------------------
 
 // Haired skin without strands, or between them: streaks along the hair that are lit as strands are.
-fn coat(at: Point, colour: vec3<f32>, in: Varying, fur: f32) -> vec3<f32> {
+fn coat(at: Point, colour: vec3<f32>, in: Varying, fur: f32, pixel: f32) -> vec3<f32> {
     var p = at;
     let n = today(in.growth, in.comb, in.nature, in.age.x);
     let smooth_normal = p.normal;
@@ -231,15 +285,18 @@ fn coat(at: Point, colour: vec3<f32>, in: Varying, fur: f32) -> vec3<f32> {
     let cover = globals.coat.x;
     let streaky = 1.0 - cover;
     // Two widths of streaks, wider in long hair; each fades where a pixel spans more than it.
-    let pixel = max(length(dpdx(in.rest)), length(dpdy(in.rest)));
     let long = smoothstep(0.003, 0.030, n.length);
     let fine_width = mix(0.00030, 0.00045, long);
     let lock_width = mix(0.0009, 0.0018, long);
     let clump = blobs(in.rest, 0.0036);
     let lean = unit(along + cross(p.normal, along) * clump.x * 0.35, along);
     let rest_lean = unit(rest_along + clump.xyz * (0.20 + 0.3 * n.wire), rest_along);
-    let fine = streaks(in.rest, rest_lean, fine_width, n.curl) * ((1.0 - smoothstep(0.6, 1.8, pixel / fine_width)) * streaky);
-    let locks = streaks(in.rest, rest_lean, lock_width, n.curl) * ((1.0 - smoothstep(0.6, 1.8, pixel / lock_width)) * streaky);
+    var fine = vec4<f32>(0.0);
+    // Vertices stand wider than these.
+    if !draft {
+        fine = streaks(in.rest, rest_lean, fine_width, n.curl, streaky * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)));
+    }
+    let locks = streaks(in.rest, rest_lean, lock_width, n.curl, streaky * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)));
     let mottle = blobs(in.rest, 0.0105).y;
 
     let sideways = cross(p.normal, lean);
@@ -464,18 +521,11 @@ fn tears(p: Point, colour: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    var view = globals.eye.xyz;
-    if globals.eye.w > 0.5 {
-        view = unit(globals.eye.xyz - in.position, vec3<f32>(0.0, 0.0, 1.0));
+    if draft && kind == COAT && !seen_through {
+        return vec4<f32>(in.shaded, 1.0);
     }
-    var normal = unit(in.normal, view);
-    if !front {
-        normal = -normal;
-    }
-    let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
-    let point = Point(in.position, normal, view, shadow(in.position, normal), rim_shadow(in.position, normal), open);
+    let point = point(in, front);
     let colour = max(in.colour, vec3<f32>(0.0));
-    let fur = clamp(in.surface.x, 0.0, 1.0);
     let gloss = clamp(in.surface.y, 0.0, 1.0);
 
     var light: vec3<f32>;
@@ -505,11 +555,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
             light = tears(point, colour);
         }
         default: {
-            light = coat(point, colour, in, fur);
-            // Bare or moist margins shade off into the coat.
-            light += moisture(point, gloss * (1.0 - fur));
-            // Hair keeps most of it to itself.
-            light += glow(point, colour) * (1.0 - 0.7 * fur);
+            light = haired(point, in, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
         }
     }
     if is_made_of(CLAY) {
@@ -520,7 +566,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     }
     var opacity = 1.0;
     if seen_through {
-        let grazing = 1.0 - clamp(dot(normal, view), 0.0, 1.0);
+        let grazing = 1.0 - clamp(dot(point.normal, point.view), 0.0, 1.0);
         opacity = mix(globals.measures.w, 1.0, 0.85 * grazing * grazing * grazing);
     }
     return vec4<f32>(encoded(film(light)) * opacity, opacity);

@@ -43,7 +43,7 @@ struct Groom {
 @group(1) @binding(11) var rim_map: texture_depth_2d;
 
 // As in strand_pass.rs.
-const POINTS: u32 = 6u;
+override points: u32 = 6u;
 const BATCH: u32 = 128u;
 
 // Metres of a head unit on the default head.
@@ -52,6 +52,8 @@ const HEAD_UNIT: f32 = 0.01;
 // dense all over.
 const OUTLINE: f32 = 3.0;
 const OUTLINE_UP_TO: f32 = 90000.0;
+// From so many strands on short ones stand all over.
+const BRISTLES: f32 = 9000.0;
 // The farthest that a tip goes to its lock, as a part of its length.
 const GATHERED: f32 = 0.45;
 
@@ -113,11 +115,18 @@ fn skin_at(root: Root) -> vec3<f32> {
 
 // A point of a strand, `t` from 0 at the root to 1 at the tip.
 fn point(s: Strand, t: f32) -> vec3<f32> {
-    var off = s.along * (0.95 * t) + s.normal * (s.lift * (t - 0.45 * t * t));
+    // A strand bends until it hangs: the sooner, the longer, softer and wetter it is. On top of the head it lies, but
+    // for what is long enough to hang over the side.
+    let lies = 1.0 - clamp(s.length / (0.25 * globals.measures.x), 0.0, 0.9);
+    let down = s.normal * (max(dot(globals.up.xyz, s.normal), 0.0) * lies) - globals.up.xyz;
+    let limp = 20.0 * s.length * (1.0 - 0.75 * s.wire) * (1.0 - 0.6 * clamp(s.lift, 0.0, 1.0)) * (1.0 + 1.5 * globals.hair.w);
+    let curving = limp * length(down) + 1e-4;
+    let bending = min(t, 1.0 / curving);
+    let fallen = 0.5 * curving * bending * bending;
+    var off = s.along * (0.95 * (bending - fallen)) + unit(down, vec3<f32>(0.0)) * (0.95 * (fallen + t - bending));
+    off += s.normal * (s.lift * (t - 0.45 * t * t));
     off += s.across * (sin(t * 7.0 + s.phase.y) - sin(s.phase.y)) * 0.07 * s.wire;
     off *= s.length;
-    let droop = 6.0 * (1.0 - 0.7 * s.wire) * (1.0 + 2.0 * globals.hair.w);
-    off -= globals.up.xyz * min(droop * s.length, 0.9) * s.length * t * t;
     // Rings whose width grows with the hair's length.
     let turns = clamp(s.length / 0.018, 0.4, 1.6);
     let turn = s.phase.x + turns * t * 6.2831853;
@@ -152,8 +161,11 @@ struct Behind {
 fn from_behind(place: vec3<f32>, normal: vec3<f32>) -> Behind {
     let in_map = globals.rim_from_head * vec4<f32>(place, 1.0);
     let texel = vec2<i32>(in_map.xy * vec2<f32>(textureDimensions(rim_map)));
-    let depth = in_map.z - textureLoad(rim_map, texel, 0);
-    let through = transmitted(depth * 1.02 * globals.measures.x) * smoothstep(-0.05, 0.6, -dot(normal, globals.rim.xyz));
+    let nearest = textureLoad(rim_map, texel, 0);
+    let depth = in_map.z - nearest;
+    // A map in which nothing is tells nothing.
+    let flesh = transmitted(depth * 1.02 * globals.measures.x) * select(0.0, 1.0, nearest < 1.0);
+    let through = flesh * smoothstep(-0.05, 0.6, -dot(normal, globals.rim.xyz));
     return Behind(1.0 - smoothstep(0.002, 0.007, depth), globals.rim_light.rgb * through);
 }
 
@@ -164,7 +176,7 @@ fn nothing() -> Varying {
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32) -> Varying {
-    let number = batch * BATCH + index / (2u * POINTS);
+    let number = batch * BATCH + index / (2u * points);
     let n_strands = globals.age.w;
     if f32(number) >= n_strands * OUTLINE || number >= arrayLength(&roots) {
         return nothing();
@@ -189,8 +201,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     // Few strands stand closer where they are seen against what lies behind; one that is about to go shrinks first.
     let outline = clamp(OUTLINE_UP_TO / n_strands, 1.0, OUTLINE);
     let wanted = n_strands * mix(outline, 1.0, smoothstep(0.10, 0.55, abs(facing)));
-    let kept = clamp((wanted - f32(number)) / (0.1 * n_strands), 0.0, 1.0);
-    if kept <= 0.0 {
+    if f32(number) >= wanted {
         return nothing();
     }
     let random = bytes(root.seed);
@@ -202,6 +213,14 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     let grey = mixed4(grooms[a].age, grooms[b].age, grooms[c].age, root).x;
     let n = today(growth, comb, nature, grey);
     if other.x > n.density {
+        return nothing();
+    }
+    // Single short hairs on skin that shows would be bristles: where there are few, only long ones stand inside.
+    let long = smoothstep(0.008, 0.025, n.length);
+    let inside = mix(clamp(n_strands / BRISTLES, 0.0, 1.0), 1.0, max(long, 1.0 - smoothstep(0.25, 0.6, abs(facing))));
+    // One that is about to go shrinks first.
+    let kept = clamp((wanted * inside - f32(number)) / (0.1 * n_strands), 0.0, 1.0);
+    if kept <= 0.0 {
         return nothing();
     }
     let is_under = more.x < 0.5 * n.undercoat;
@@ -240,14 +259,14 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     // Short hair in a hollow would not come out of the skin.
     s.lift = max(s.lift, 0.06) + 0.40 * (1.0 - smoothstep(0.0015, 0.0065, s.length)) * loose;
     let curl_phase = mix(mottle.z * 5.0, noise(led_place + 0.71, 0.006).x * 7.0, held);
-    s.phase = vec2<f32>(curl_phase + 0.5 * signed.w, random.w * 6.2831853);
+    s.phase = vec2<f32>(curl_phase + mix(0.5, 0.25, held) * signed.w, random.w * 6.2831853);
     s.root = skin - s.normal * min(0.0003, 0.06 * s.length);
     let to_leader = skin_at(leader) - skin;
     let way = to_leader - s.normal * dot(to_leader, s.normal);
     s.gather = way * min(0.85 * held, GATHERED * s.length / max(length(way), 1e-5));
 
-    let corner = index % (2u * POINTS);
-    let t = f32(corner >> 1u) / f32(POINTS - 1u);
+    let corner = index % (2u * points);
+    let t = f32(corner >> 1u) / f32(points - 1u);
     let here = point(s, t);
     let heading = unit(point(s, t + 0.04) - point(s, t - 0.04), s.along);
 
@@ -266,7 +285,10 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
         albedo = CLAY_COLOUR;
     }
     let gloss = select(n.gloss, 0.0, is_under);
-    var light = lit_hair(s.normal, albedo, heading, view, t, deep, n.hidden, gloss, lit, behind.lit, behind.through, random.zw);
+    // A ring's near side is turned to the light, its far side away.
+    let turn = s.phase.x + clamp(s.length / 0.018, 0.4, 1.6) * t * 6.2831853;
+    let ringed = s.normal + (s.across * cos(turn) + s.normal * sin(turn)) * (0.55 * s.curl * s.curl);
+    var light = lit_hair(unit(ringed, s.normal), albedo, heading, view, t, deep, n.hidden, gloss, lit, behind.lit, behind.through, random.zw);
     if is_made_of(INK) {
         light = vec3<f32>(0.0);
     }
@@ -277,7 +299,9 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     let ahead = globals.clip_from_head * vec4<f32>(here + heading * 0.001, 1.0);
     let on_screen = (ahead.xy / ahead.w - clip.xy / clip.w) * half_size;
     let direction = on_screen / max(length(on_screen), 1e-6);
-    let width = globals.age.z * select(1.0, 1.4, is_under);
+    // Few long hairs are locks.
+    let lock_width = mix(1.0, sqrt(clamp(25000.0 / n_strands, 1.0, 5.0)), long);
+    let width = globals.age.z * lock_width * select(1.0, 1.4, is_under);
     let pixels = width * (1.0 - 0.6 * t * t) / globals.measures.y;
     let drawn = max(pixels, 1.0);
     let side = f32(corner & 1u) - 0.5;

@@ -45,7 +45,7 @@ pub struct Measured {
     pub measure_ms: f32,
 }
 
-/// Runs so many pictures of the window at level 4, each of another head, and waits for the driver after each; then half as
+/// Runs so many pictures of the window, each of another head, and waits for the driver after each; then half as
 /// many while the pointer is held down. `window`: width and height in points, of one pixel each.
 ///
 /// # Errors
@@ -67,7 +67,7 @@ pub fn measure(launch: &Launch, n_frames: usize, window: [u32; 2]) -> Result<Mea
         view_formats: &[],
     });
     let view = target.create_view(&Default::default());
-    let mut turn = Turn::new(gpu, format, &ShaderSources::default(), state, launch.n_strands)
+    let mut turn = Turn::new(gpu, format, &ShaderSources::default(), state, launch)
         .map_err(|e: TurnError| AppError::Other(e.to_string()))?;
     let row = turn.state.table.index_of(MEASURE);
 

@@ -53,6 +53,8 @@ pub struct Launch {
     pub rigs: Option<PathBuf>,
     /// A folder like `shaders/` that overrides the program's own and is watched.
     pub shaders: Option<PathBuf>,
+    /// Of subdivision; what suits the driver if nobody says.
+    pub level: Option<u32>,
     /// Strands of hair; as many as suit the driver if nobody says.
     pub n_strands: Option<u32>,
     /// What the coat is like today.

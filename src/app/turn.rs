@@ -3,6 +3,7 @@
 //! The window runs it, and so does the measurement of it, so that what is measured is what runs.
 
 use super::panels;
+use super::run::Launch;
 use super::scene::Scene;
 use super::state::EditorState;
 use crate::frame::{Frame, Pipeline, PipelineError};
@@ -28,7 +29,9 @@ pub(super) enum TurnError {
 
 /// Strands of hair on a window's head at first, where a graphics card draws it and where a processor does.
 const HAIR: u32 = 90_000;
-const HAIR_BY_SOFTWARE: u32 = 0;
+const HAIR_BY_SOFTWARE: u32 = 2000;
+/// How finely a head is made at first where a processor draws.
+const LEVEL_BY_SOFTWARE: u32 = 3;
 
 /// What a window shows and what draws it; as long as the device.
 pub(super) struct Turn {
@@ -56,15 +59,18 @@ pub(super) struct Recorded {
 }
 
 impl Turn {
-    /// `format`: of what the panels are painted on; `n_strands`: of hair, as many as suit the driver if nobody says.
+    /// `format`: of what the panels are painted on; level and hair are those of the launch, or what suits the driver.
     pub(super) fn new(
         gpu: Gpu,
         format: wgpu::TextureFormat,
         sources: &ShaderSources,
         mut state: EditorState,
-        n_strands: Option<u32>,
+        launch: &Launch,
     ) -> Result<Self, TurnError> {
-        state.n_strands = n_strands.unwrap_or(if gpu.is_software() { HAIR_BY_SOFTWARE } else { HAIR });
+        let (level, n_strands) =
+            if gpu.is_software() { (LEVEL_BY_SOFTWARE, HAIR_BY_SOFTWARE) } else { (state.level(), HAIR) };
+        state.set_level(launch.level.unwrap_or(level));
+        state.n_strands = launch.n_strands.unwrap_or(n_strands);
         let context = egui::Context::default();
         panels::set_fonts(&context);
         let mut renderer = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());

@@ -85,6 +85,9 @@ pub(super) struct View {
     /// Width and height of the window that is measured, pixels
     #[arg(long, value_name = "WxH", value_parser = values::size, requires = "measure")]
     pub size: Option<Size>,
+    /// Level of subdivision to begin with, 0 to 5; without it 4, or 3 where a processor draws
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_LEVEL))]
+    pub level: Option<u32>,
     #[command(flatten)]
     pub fur: Fur,
     /// Print a JSON object
@@ -175,8 +178,8 @@ pub(super) struct Scene {
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct Fur {
     /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
-    /// one head, low for a sheet and a window that a processor draws, off for an atlas, below lines and where the preset has
-    /// none
+    /// one head, low for a sheet, 2000 for a window that a processor draws, off for an atlas, below lines and where the preset
+    /// has none
     #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
     pub hair: Option<u32>,
     /// Times the breed's length of hair, 0 to 3
@@ -618,6 +621,7 @@ pub(super) struct Subdivide {
     after_help = "Every frame has other control positions. x_copy compares with copying all that is delivered.\n\n\
     Examples:\n  \
     londra bench --scheme sqrt3 --level 4 --normals\n  \
+    londra bench --passes\n  \
     londra bench mesh.obj --scheme loop --level 3 --limit --threads 2 --json"
 )]
 pub(super) struct Bench {
@@ -625,11 +629,23 @@ pub(super) struct Bench {
     #[arg(value_name = "MESH")]
     pub mesh: Option<PathBuf>,
     /// The scheme of all steps
-    #[arg(long, value_parser = values::scheme())]
+    #[arg(long, value_parser = values::scheme(), default_value = "sqrt3")]
     pub scheme: Scheme,
     /// Number of steps
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
     pub level: u32,
+    /// Time what each pass of a picture of the head costs instead, for each level of hair
+    #[arg(long, conflicts_with_all = ["mesh", "scheme", "threads", "limit", "normals"])]
+    pub passes: bool,
+    /// Width and height of that picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = values::size, requires = "passes")]
+    pub size: Size,
+    /// The breed on it
+    #[arg(long, value_name = "NAME|FILE.ron", default_value = "labrador", requires = "passes")]
+    pub breed: String,
+    /// Draw it as a window does on a software driver, whatever the driver is
+    #[arg(long, requires = "passes")]
+    pub draft: bool,
     /// Threads to compute with, 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub threads: u32,

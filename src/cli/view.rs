@@ -22,7 +22,7 @@ pub(super) fn run(args: &View) -> Result<(), Failure> {
     // With a folder in it the word is a path, whatever it ends in.
     let breed = args.file.as_ref().map(|file| Path::new(".").join(file).display().to_string());
     let (n_strands, condition) = (args.fur.hair, args.fur.condition());
-    let launch = Launch { breed, rigs: folder, n_strands, condition, ..here };
+    let launch = Launch { breed, rigs: folder, level: args.level, n_strands, condition, ..here };
     if let Some(n_pictures) = args.measure {
         return measure(&launch, n_pictures, args.size.unwrap_or(WINDOW), args.json);
     }

@@ -19,7 +19,7 @@ pub enum Quality {
     /// Everything.
     #[default]
     Full,
-    /// No streaks in the coat and hard shadows: for a window drawn by a software driver.
+    /// Haired skin shaded at its vertices, hard shadows: for a window drawn by a software driver.
     Draft,
 }
 
@@ -188,7 +188,7 @@ fn pipeline(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
             buffers: &buffers,
         },
         // Both sides: one looks into nostrils and into an open mouth. Of what is seen through, the near side.

@@ -81,6 +81,37 @@ impl Drawing {
     }
 }
 
+/// What of a picture is drawn, in the order in which it is: each with all before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Nothing but uploads, and a picture that is cleared.
+    Cleared,
+    /// The maps of the lights' shadows.
+    Shadows,
+    /// What stands behind the head.
+    Ground,
+    /// Strands of hair.
+    Strands,
+    /// Surfaces, and lines over them: the whole picture.
+    Surfaces,
+}
+
+impl Stage {
+    /// Every stage in its order.
+    pub const ALL: [Self; 5] = [Self::Cleared, Self::Shadows, Self::Ground, Self::Strands, Self::Surfaces];
+
+    /// What it adds to the one before.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cleared => "upload and clear",
+            Self::Shadows => "shadow maps",
+            Self::Ground => "ground",
+            Self::Strands => "strands",
+            Self::Surfaces => "surfaces",
+        }
+    }
+}
+
 /// Pipelines once per device and shader text; the head's buffers once per topology.
 #[derive(Debug)]
 pub struct Painter {
@@ -120,7 +151,7 @@ impl Passes {
             ground: GroundPass::new(device, sources, globals, &mesh.layout)?,
             mesh,
             wire: WirePass::new(device, sources, globals)?,
-            strand: StrandPass::new_if_able(device, queue, sources, globals)?,
+            strand: StrandPass::new_if_able(device, queue, sources, globals, quality)?,
             shadow,
         })
     }
@@ -197,6 +228,21 @@ impl Painter {
         frame: &Frame<'_>,
         drawing: &Drawing,
     ) {
+        self.draw_until(Stage::Surfaces, device, queue, encoder, targets, frame, drawing);
+    }
+
+    /// The same, up to a stage of the picture: for who measures what each costs.
+    #[expect(clippy::too_many_arguments, reason = "those of a whole picture, and how far")]
+    pub fn draw_until(
+        &mut self,
+        until: Stage,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &Frame<'_>,
+        drawing: &Drawing,
+    ) {
         let plan = frame.plan.filter(|plan| drawing.on_card && SubdividePass::takes(device, plan));
         let pass = self.subdivide.as_ref().zip(plan);
         if !self.head.as_ref().is_some_and(|head| head.fits(frame)) {
@@ -248,13 +294,20 @@ impl Painter {
         globals.set_hair(&drawing.condition, youth, 2.0 * extent.radius, n_strands);
         queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
 
-        self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin);
+        if until >= Stage::Shadows {
+            self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin, self.quality);
+        }
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
-        self.passes.ground.draw(&mut pass, &self.passes.mesh.bindings);
+        if until >= Stage::Ground {
+            self.passes.ground.draw(&mut pass, &self.passes.mesh.bindings);
+        }
         // Hair first: what it hides of the skin, which is dearer, is not shaded.
-        if let Some(hair) = hair {
+        if let Some(hair) = hair.filter(|_| until >= Stage::Strands) {
             hair.draw(&mut pass);
+        }
+        if until < Stage::Surfaces {
+            return;
         }
         self.passes.mesh.draw(device, &mut pass, head, clear_skin);
         if lines.is_some() {

@@ -4,14 +4,20 @@
 //! whose shape alone has changed uploads nothing, nor does another condition of the coat.
 
 use super::head_buffers::{HeadBuffers, buffer};
-use super::mesh_pass::MeshPass;
+use super::mesh_pass::{MeshPass, Quality};
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
 use super::targets::{COLOUR, depth, samples};
 use crate::coat::{self, Coat};
 use crate::frame::Revisions;
 
-/// Points of a strand; `strand.wgsl` knows it too.
-const POINTS: u16 = 6;
+/// Points of a strand.
+fn n_points(quality: Quality) -> u16 {
+    match quality {
+        Quality::Full => 6,
+        Quality::Draft => 4,
+    }
+}
+
 /// Strands drawn by one instance, so that instances are not too small for the card; `strand.wgsl` knows it too.
 const BATCH: u16 = 128;
 /// Buffers that the vertex stage reads.
@@ -27,6 +33,7 @@ pub(super) struct StrandPass {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     ribbons: wgpu::Buffer,
+    n_indices: u32,
     loaded: Option<Loaded>,
     n_bytes: u64,
 }
@@ -57,6 +64,7 @@ impl StrandPass {
         queue: &wgpu::Queue,
         sources: &ShaderSources,
         globals: &wgpu::BindGroupLayout,
+        quality: Quality,
     ) -> Result<Option<Self>, ShaderError> {
         // Checked in any case, so that a mistake is told wherever it is made.
         sources.check(ShaderFile::Strand)?;
@@ -70,11 +78,13 @@ impl StrandPass {
             immediate_size: 0,
         });
         let module = sources.compile(device, ShaderFile::Strand)?;
-        let pipeline = build_checked(device, ShaderFile::Strand, || pipeline(device, &module, &pipeline_layout))?;
-        let indices = ribbon_indices();
+        let pipeline = build_checked(device, ShaderFile::Strand, || {
+            pipeline(device, &module, &pipeline_layout, n_points(quality))
+        })?;
+        let indices = ribbon_indices(n_points(quality));
         let ribbons = buffer(device, "ribbons", indices.len() * size_of::<u16>(), wgpu::BufferUsages::INDEX);
         queue.write_buffer(&ribbons, 0, bytemuck::cast_slice(&indices));
-        Ok(Some(Self { pipeline, layout, ribbons, loaded: None, n_bytes: 0 }))
+        Ok(Some(Self { pipeline, layout, ribbons, n_indices: indices.len() as u32, loaded: None, n_bytes: 0 }))
     }
 
     /// Bytes uploaded for hair so far.
@@ -153,14 +163,13 @@ impl StrandPass {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(1, &loaded.bindings, &[]);
         pass.set_index_buffer(self.ribbons.slice(..), wgpu::IndexFormat::Uint16);
-        let n_indices = u32::from(BATCH) * u32::from(POINTS - 1) * 6;
-        pass.draw_indexed(0..n_indices, 0, 0..loaded.n_drawn.div_ceil(u32::from(BATCH)));
+        pass.draw_indexed(0..self.n_indices, 0, 0..loaded.n_drawn.div_ceil(u32::from(BATCH)));
     }
 }
 
 /// Two triangles between each two points of each strand of a batch; a point has two corners, left and right.
-fn ribbon_indices() -> Vec<u16> {
-    let segments = (0..BATCH).flat_map(|strand| (0..POINTS - 1).map(move |point| (strand * POINTS + point) * 2));
+fn ribbon_indices(n_points: u16) -> Vec<u16> {
+    let segments = (0..BATCH).flat_map(|strand| (0..n_points - 1).map(move |point| (strand * n_points + point) * 2));
     segments.flat_map(|i| [i, i + 1, i + 2, i + 2, i + 1, i + 3]).collect()
 }
 
@@ -181,14 +190,20 @@ fn bindings_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("strand"), entries: &entries })
 }
 
-fn pipeline(device: &wgpu::Device, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    n_points: u16,
+) -> wgpu::RenderPipeline {
+    let constants = [("points", f64::from(n_points))];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("strand"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
             buffers: &[],
         },
         primitive: Default::default(),
