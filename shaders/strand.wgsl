@@ -142,6 +142,22 @@ fn point(s: Strand, t: f32) -> vec3<f32> {
     return s.root + off;
 }
 
+// How long a strand may be that starts at `skin` and goes on in a direction, so that it ends before an eye.
+fn clear_of_eyes(skin: vec3<f32>, heading: vec3<f32>, length_wanted: f32) -> f32 {
+    var allowed = length_wanted;
+    for (var e = 0u; e < 2u; e++) {
+        let radius = globals.eyes[e].centre.w;
+        let to = globals.eyes[e].centre.xyz + globals.eyes[e].axes[2].xyz * radius - skin;
+        let distance = length(to);
+        let toward = dot(heading, to) / max(distance, 1e-6);
+        let misses = distance * sine(toward);
+        let hits = smoothstep(0.0, 0.2, toward) * (1.0 - smoothstep(1.0 * radius, 1.6 * radius, misses));
+        let room = max(distance - 1.05 * radius, 0.0012);
+        allowed = mix(allowed, min(allowed, room), hits);
+    }
+    return allowed;
+}
+
 // How much of the key light reaches a strand: two comparisons, somewhere else for each hair.
 fn shadow(position: vec3<f32>, random: vec4<f32>) -> f32 {
     let place = globals.shadow_from_head * vec4<f32>(position, 1.0);
@@ -255,6 +271,8 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     let swing = (0.18 + 0.36 * n.clump) * lock.x + (0.16 + 0.25 * n.wire) * loose * signed.y + 0.25 * wave.x;
     s.along = unit(flat_flow + cross(s.normal, flat_flow) * swing, flat_flow);
     s.across = cross(s.normal, s.along);
+    let hangs = min(20.0 * s.length * (1.0 - 0.75 * n.wire), 1.0);
+    s.length = clear_of_eyes(skin, unit(s.along - globals.up.xyz * (0.7 * hangs), s.along), s.length);
     s.lift = n.lift + 0.16 * lock.y * loose + (0.10 + 0.20 * n.wire) * loose * signed.z + select(0.0, 0.15, is_under);
     // Short hair in a hollow would not come out of the skin.
     s.lift = max(s.lift, 0.06) + 0.40 * (1.0 - smoothstep(0.0015, 0.0065, s.length)) * loose;

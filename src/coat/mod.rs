@@ -16,7 +16,7 @@ pub use colours::Colours;
 pub use condition::{CLIPPED, Condition, ConditionField};
 pub use groom::{Groom, N_CHANNELS, groom};
 pub use markings::Colouring;
-pub use roots::{MAX_STRANDS, Root, n_rooted, roots};
+pub use roots::{MAX_STRANDS, N_LEADERS, Root, n_rooted, roots};
 
 use crate::anatomy::{Hair, Region};
 use crate::mesh::VertexId;
