@@ -303,9 +303,11 @@ fn coat(at: Point, colour: vec3<f32>, in: Varying, fur: f32, pixel: f32) -> vec3
     let bumps = mix(0.6, 1.3, long);
     p.normal = unit(p.normal + (sideways * (fine.y * 0.20 + locks.y * 0.22) + lean * (locks.z * 0.10)) * bumps, p.normal);
     // What is seen is the upper part of hairs, and between strands the lower one of others.
-    let seen = mix(0.60, 0.95, long) + 0.20 * fine.x + 0.14 * locks.x;
-    let t = clamp(mix(seen, mix(0.38, 0.20, long), cover), 0.0, 1.0);
-    let deep = clamp(mix(mix(0.42, 0.25, long) - 0.35 * locks.y, 0.65, cover), 0.0, 1.0) * clamp(n.length / 0.008, 0.35, 1.0);
+    let seen = mix(0.60, 0.94, long) + 0.20 * fine.x + 0.14 * locks.x;
+    // Few strands hide nothing of the light.
+    let dark = cover * cover;
+    let t = clamp(mix(seen, mix(0.38, 0.20, long), dark), 0.0, 1.0);
+    let deep = clamp(mix(mix(0.42, 0.25, long) - 0.35 * locks.y, 0.65, dark), 0.0, 1.0) * clamp(n.length / 0.008, 0.35, 1.0);
     var base = mix(colour, woolly(colour), n.undercoat * mix(0.15, 0.7, cover));
     base = mix(base, GREY, n.grey * clamp(0.9 + fine.z, 0.0, 1.0));
     let shade = exp(fine.w * 0.16 + locks.x * 0.12 + mottle * 0.10);

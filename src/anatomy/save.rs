@@ -1,9 +1,7 @@
 //! [`Breed`] to text.
 
 use super::file::NEWEST;
-use super::{
-    Breed, Hair, ParamTable, Reference, Region, RegionHair, Variety, coat_file, colour, hair, param,
-};
+use super::{Breed, Hair, ParamTable, Reference, Region, RegionHair, Variety, coat_file, colour, hair, param};
 use glam::Vec3;
 use std::fmt::Write;
 
@@ -58,8 +56,7 @@ fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt:
 }
 
 pub(super) fn hair_text(hair: &Hair) -> String {
-    let mut out: Vec<String> =
-        hair::FIELDS.iter().map(|f| number_text(f.name, (f.get)(hair), f.unit())).collect();
+    let mut out: Vec<String> = hair::FIELDS.iter().map(|f| number_text(f.name, (f.get)(hair), f.unit())).collect();
     if !hair.regions.is_empty() {
         let of_region = |(region, told): (&Region, &RegionHair)| {
             let numbers: Vec<String> = told.fields().map(|(f, value)| number_text(f.name, value, f.unit())).collect();

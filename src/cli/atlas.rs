@@ -46,13 +46,8 @@ pub(super) fn run(args: &Atlas) -> Result<(), Failure> {
     let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
     let mut pipeline = Pipeline::new(rig, LEVEL).map_err(Failure::work)?;
     pipeline.set_hair(args.fur.hair.unwrap_or(0) as usize);
-    let mut studio = Studio {
-        pipeline,
-        fur: args.fur,
-        offscreen: picture::offscreen()?,
-        size: args.size,
-        view: args.view,
-    };
+    let mut studio =
+        Studio { pipeline, fur: args.fur, offscreen: picture::offscreen()?, size: args.size, view: args.view };
     let (mut sections, mut changes) = (Vec::new(), Vec::new());
     for group in &groups {
         let mut strips = Vec::new();

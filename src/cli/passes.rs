@@ -39,8 +39,7 @@ pub(super) fn run(args: &Bench) -> Result<(), Failure> {
         let frame = pipeline.update(&breed);
         n_triangles = frame.n_triangles();
         let camera = picture::camera(&frame, View::Portrait, None, Lens::default(), args.size);
-        let drawing =
-            Drawing { n_strands: n_strands as u32, samples: Samples::FEWEST, ..Drawing::new(camera) };
+        let drawing = Drawing { n_strands: n_strands as u32, samples: Samples::FEWEST, ..Drawing::new(camera) };
         let mut times: [Vec<f64>; Stage::ALL.len()] = Default::default();
         // The first round uploads and compiles.
         for round in 0..=ROUNDS {

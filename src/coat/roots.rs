@@ -152,7 +152,8 @@ impl Leaders {
         let places = || roots.iter().map(|r| Vec3::from(r.place));
         let (low, high) = places().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
         let n_cells = (high - low).to_array().map(|side| (side.max(0.0) / LOCK_REACH) as usize + 1);
-        let mut leaders = Self { low, n_cells, starts: vec![0; n_cells.iter().product::<usize>() + 1], sorted: Vec::new() };
+        let mut leaders =
+            Self { low, n_cells, starts: vec![0; n_cells.iter().product::<usize>() + 1], sorted: Vec::new() };
         let mut of_cell: Vec<(usize, u32)> =
             (0u32..).zip(places()).map(|(i, p)| (leaders.number(leaders.cell(p)), i)).collect();
         of_cell.sort_unstable();

@@ -261,7 +261,8 @@ impl Pipeline {
                 .iter()
                 .flat_map(|r| std::iter::repeat_n(r.material == Material::Coat, r.count as usize / 3))
                 .collect();
-            self.hair.roots = coat::roots(&self.rig, &self.plan, triangles, &is_haired, coat::n_rooted(self.hair.n_strands));
+            self.hair.roots =
+                coat::roots(&self.rig, &self.plan, triangles, &is_haired, coat::n_rooted(self.hair.n_strands));
         }
     }
 

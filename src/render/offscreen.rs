@@ -86,13 +86,7 @@ impl Offscreen {
 
     /// Draws a picture up to a stage, as a window draws it, and waits until it is done: for who measures what that takes.
     /// `size`: pixels, each at least 1 and at most the device's limit.
-    pub fn run(
-        &mut self,
-        until: Stage,
-        frame: &Frame<'_>,
-        drawing: &Drawing,
-        size: [u32; 2],
-    ) -> Result<(), DrawError> {
+    pub fn run(&mut self, until: Stage, frame: &Frame<'_>, drawing: &Drawing, size: [u32; 2]) -> Result<(), DrawError> {
         let Gpu { device, queue, .. } = &self.gpu;
         let targets = match &mut self.targets {
             Some(targets) if targets.size == size => targets,

@@ -139,8 +139,7 @@ impl StrandPass {
         let roots = storage("roots", size_of_val(coat.roots));
         self.write(queue, &roots, bytemuck::cast_slice(coat.roots));
         let colours = storage("hair colours", size_of_val(coat.colours));
-        let buffers =
-            [&roots, &head.indices, &head.positions, &head.normals, &head.flow, &head.grooms, &colours];
+        let buffers = [&roots, &head.indices, &head.positions, &head.normals, &head.flow, &head.grooms, &colours];
         let resources = buffers.map(|b| b.as_entire_binding()).into_iter().chain(mesh.resources());
         let entries: Vec<_> =
             (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();

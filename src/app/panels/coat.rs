@@ -6,7 +6,7 @@ use egui::RichText;
 
 /// Length, density, clipped, wet, grey. They are of no file and no step to undo: the breed stays as it is.
 pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
-    let header = egui::CollapsingHeader::new(RichText::new("Coat").strong()).id_salt("coat today");
+    let header = egui::CollapsingHeader::new(RichText::new("Coat today").strong()).id_salt("coat today");
     header.show(ui, |ui| {
         egui::Grid::new("condition").num_columns(2).show(ui, |ui| {
             for field in Condition::FIELDS {
