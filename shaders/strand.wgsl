@@ -128,9 +128,9 @@ fn point(s: Strand, t: f32) -> vec3<f32> {
     off += s.across * (sin(t * 7.0 + s.phase.y) - sin(s.phase.y)) * 0.07 * s.wire;
     off *= s.length;
     // Rings whose width grows with the hair's length.
-    let turns = clamp(s.length / 0.018, 0.4, 1.6);
+    let turns = clamp(s.length / 0.020, 0.4, 1.3);
     let turn = s.phase.x + turns * t * 6.2831853;
-    let ring = s.curl * min(0.0055, 0.3 * s.length);
+    let ring = s.curl * min(0.0055, 0.3 * s.length) * smoothstep(0.003, 0.014, s.length);
     off += (s.across * (cos(turn) - cos(s.phase.x)) + s.normal * (sin(turn) - sin(s.phase.x))) * ring;
     off += s.gather * (t * sqrt(t));
     // What hangs lies on the head, which bends away from under it.
@@ -268,7 +268,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     s.curl = select(n.curl, max(n.curl, 0.45), is_under);
     let loose = 1.0 - 0.7 * globals.hair.w;
     let flat_flow = unit(lies - s.normal * dot(lies, s.normal), unit(cross(s.normal, vec3<f32>(1.0, 0.0, 0.0)), vec3<f32>(0.0, 0.0, 1.0)));
-    let swing = (0.18 + 0.36 * n.clump) * lock.x + (0.16 + 0.25 * n.wire) * loose * signed.y + 0.25 * wave.x;
+    let swing = (0.18 + 0.36 * n.clump) * lock.x + (0.16 + 0.25 * n.wire) * loose * (1.0 - 0.6 * n.curl) * signed.y + 0.25 * wave.x;
     s.along = unit(flat_flow + cross(s.normal, flat_flow) * swing, flat_flow);
     s.across = cross(s.normal, s.along);
     let hangs = min(20.0 * s.length * (1.0 - 0.75 * n.wire), 1.0);
@@ -276,8 +276,10 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     s.lift = n.lift + 0.16 * lock.y * loose + (0.10 + 0.20 * n.wire) * loose * signed.z + select(0.0, 0.15, is_under);
     // Short hair in a hollow would not come out of the skin.
     s.lift = max(s.lift, 0.06) + 0.40 * (1.0 - smoothstep(0.0015, 0.0065, s.length)) * loose;
-    let curl_phase = mix(mottle.z * 5.0, noise(led_place + 0.71, 0.006).x * 7.0, held);
-    s.phase = vec2<f32>(curl_phase + mix(0.5, 0.25, held) * signed.w, random.w * 6.2831853);
+    // Ringlets turn together.
+    let together = max(held, smoothstep(0.3, 0.8, n.curl) * (1.0 - f32(is_under)));
+    let curl_phase = mix(mottle.z * 5.0, noise(led_place + 0.71, 0.006).x * 7.0, together);
+    s.phase = vec2<f32>(curl_phase + mix(0.5, 0.2, together) * signed.w, random.w * 6.2831853);
     s.root = skin - s.normal * min(0.0003, 0.06 * s.length);
     let to_leader = skin_at(leader) - skin;
     let way = to_leader - s.normal * dot(to_leader, s.normal);
@@ -304,7 +306,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) batch: u32
     }
     let gloss = select(n.gloss, 0.0, is_under);
     // A ring's near side is turned to the light, its far side away.
-    let turn = s.phase.x + clamp(s.length / 0.018, 0.4, 1.6) * t * 6.2831853;
+    let turn = s.phase.x + clamp(s.length / 0.020, 0.4, 1.3) * t * 6.2831853;
     let ringed = s.normal + (s.across * cos(turn) + s.normal * sin(turn)) * (0.55 * s.curl * s.curl);
     var light = lit_hair(unit(ringed, s.normal), albedo, heading, view, t, deep, n.hidden, gloss, lit, behind.lit, behind.through, random.zw);
     if is_made_of(INK) {

@@ -321,8 +321,8 @@ mod drawn {
     /// Strands from none to many, as a person may ask for them.
     const STRANDS: [u32; 8] = [0, 2_000, 5_000, 10_000, 20_000, 40_000, 90_000, 250_000];
     /// How far the mean colour may be from that of 90 000 strands, and from that of the number before, of 255.
-    const FROM_MEDIUM: f32 = 6.5;
-    const FROM_LAST: f32 = 5.0;
+    const FROM_MEDIUM: f32 = 6.0;
+    const FROM_LAST: f32 = 4.5;
 
     #[test]
     fn a_head_with_more_strands_is_brighter_or_darker() {
