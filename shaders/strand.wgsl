@@ -142,17 +142,18 @@ fn point(s: Strand, t: f32) -> vec3<f32> {
     return s.root + off;
 }
 
-// How long a strand may be that starts at `skin` and goes on in a direction, so that it ends before an eye.
+// How long a strand may be that starts at `skin` and goes on in a direction, so that it ends before
+// what an eye looks through.
 fn clear_of_eyes(skin: vec3<f32>, heading: vec3<f32>, length_wanted: f32) -> f32 {
     var allowed = length_wanted;
     for (var e = 0u; e < 2u; e++) {
         let radius = globals.eyes[e].centre.w;
-        let to = globals.eyes[e].centre.xyz + globals.eyes[e].axes[2].xyz * radius - skin;
+        let to = globals.eyes[e].centre.xyz + globals.eyes[e].axes[2].xyz * (1.6 * radius) - skin;
         let distance = length(to);
         let toward = dot(heading, to) / max(distance, 1e-6);
         let misses = distance * sine(toward);
-        let hits = smoothstep(0.0, 0.2, toward) * (1.0 - smoothstep(1.0 * radius, 1.6 * radius, misses));
-        let room = max(distance - 1.05 * radius, 0.0012);
+        let hits = smoothstep(0.0, 0.2, toward) * (1.0 - smoothstep(1.5 * radius, 2.2 * radius, misses));
+        let room = max(distance - 1.6 * radius, 0.0012);
         allowed = mix(allowed, min(allowed, room), hits);
     }
     return allowed;

@@ -348,6 +348,31 @@ mod drawn {
     }
 
     #[test]
+    fn hair_crosses_an_eye() {
+        let world = World::embedded();
+        let mut pipeline = pipeline(&world, 60_000);
+        let mut offscreen = offscreen();
+        for id in ["yorkshire_terrier", "shih_tzu", "miniature_schnauzer", "irish_wolfhound", "bedlington", "pekingese"]
+        {
+            let frame = pipeline.update(world.breed(id));
+            let eye = frame.eyes[0].eye;
+            let from = View::Angles { azimuth: 0.4, elevation: 0.1 };
+            let mut camera = Camera::at(from, Some(0.0), Lens::default());
+            camera.fit(frame.outline().iter(), 1.0, 0.08);
+            camera.look_at(eye.centre + eye.axes[2] * eye.radius);
+            camera.zoom(30.0);
+            let [bare, haired] = [0, 60_000].map(|n_strands| {
+                let drawing = Drawing { n_strands, ..Drawing::new(camera) };
+                offscreen.draw(&frame, &drawing, [SIDE, SIDE]).unwrap()
+            });
+            let pixels = bare.rgba.chunks_exact(4).zip(haired.rgba.chunks_exact(4));
+            let crossed = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 24)).count();
+            let most = (SIDE * SIDE) as usize / 25;
+            assert!(crossed <= most, "{id}: {crossed} pixels of the eye, at most {most}");
+        }
+    }
+
+    #[test]
     fn a_condition_of_the_coat_uploads_something_or_is_not_seen() {
         let world = World::embedded();
         let mut offscreen = offscreen();
