@@ -6,7 +6,7 @@ mod settings;
 
 use glam::Vec3;
 use londra::anatomy::{Breed, Hair, Region, load_breed, save_breed};
-use londra::coat::{Condition, MAX_STRANDS, N_LEADERS, Root, n_rooted};
+use londra::coat::{MAX_STRANDS, N_LEADERS, Root, n_rooted};
 use londra::frame::{Frame, Material, Pipeline};
 use londra::math::fnv::Fnv64;
 use settings::World;
@@ -276,6 +276,7 @@ fn hair_is_lost_on_the_way_through_a_file_or_a_blend() {
 #[cfg(feature = "graphics")]
 mod drawn {
     use super::*;
+    use londra::coat::Condition;
     use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, View};
 
     const SIDE: u32 = 120;
