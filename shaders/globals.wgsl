@@ -36,6 +36,10 @@ struct Globals {
     // How much of the haired skin is covered by strands, 0 to 1; what surfaces are made of; exposure; how dark the head's
     // shadow on the ground is.
     coat: vec4<f32>,
+    // The coat's condition: times its length, part of its hairs that are there, how much it is clipped, how wet it is.
+    hair: vec4<f32>,
+    // How grey it is, how much a puppy's; width of a strand (m), number of strands.
+    age: vec4<f32>,
     // Light of the lamps, linear.
     key_light: vec4<f32>,
     fill_light: vec4<f32>,

@@ -10,7 +10,8 @@
 
 // What the run is made of. One pipeline for each, since software drivers walk through every branch they are given.
 override kind: u32 = 0u;
-// Leave out what costs most.
+// For drivers on a processor: haired skin is shaded at its vertices, which stand about as close as pixels, and lights have
+// hard shadows.
 override draft: bool = false;
 // Blend with what lies behind, by the skin's opacity; edges, where one looks along it, hide more.
 override seen_through: bool = false;
@@ -33,6 +34,12 @@ struct Vertex {
     @location(4) surface: vec3<f32>,
     // Where the point lies on the base head: what is bound to it moves with the skin.
     @location(5) rest: vec3<f32>,
+    // As src/coat/groom.rs has it: length, lift, hidden, gloss; comb and density; curl, clump, wire, undercoat; grey, and
+    // where hair lies on the base head.
+    @location(6) growth: vec4<f32>,
+    @location(7) comb: vec4<f32>,
+    @location(8) nature: vec4<f32>,
+    @location(9) age: vec4<f32>,
 }
 
 struct Varying {
@@ -43,12 +50,63 @@ struct Varying {
     @location(3) colour: vec3<f32>,
     @location(4) surface: vec3<f32>,
     @location(5) rest: vec3<f32>,
+    @location(6) growth: vec4<f32>,
+    @location(7) comb: vec4<f32>,
+    @location(8) nature: vec4<f32>,
+    @location(9) age: vec4<f32>,
+    // Of haired skin in a draft: light that leaves it, as it falls on the film.
+    @location(10) shaded: vec3<f32>,
 }
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
     let clip = globals.clip_from_head * vec4<f32>(in.position, 1.0);
-    return Varying(clip, in.position, in.normal, in.flow, in.colour, in.surface, in.rest);
+    let p = in.position;
+    var out =
+        Varying(clip, p, in.normal, in.flow, in.colour, in.surface, in.rest, in.growth, in.comb, in.nature, in.age, vec3<f32>(0.0));
+    if draft && kind == COAT {
+        // A vertex stands for what lies between it and its neighbours.
+        out.shaded = encoded(film(haired(point(out, true), out, VERTEX_SPACING)));
+    }
+    return out;
+}
+
+// Between vertices of a head that is refined four times, metres of the base head.
+const VERTEX_SPACING: f32 = 0.0006;
+
+// Where a surface is seen.
+fn point(in: Varying, front: bool) -> Point {
+    var view = globals.eye.xyz;
+    if globals.eye.w > 0.5 {
+        view = unit(globals.eye.xyz - in.position, vec3<f32>(0.0, 0.0, 1.0));
+    }
+    var normal = unit(in.normal, view);
+    if !front {
+        normal = -normal;
+    }
+    let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
+    return Point(in.position, normal, view, shadow(in.position, normal), rim_shadow(in.position, normal), open);
+}
+
+// Haired skin, with what is bare or moist of it. `pixel`: metres of the base head that one value stands for.
+fn haired(at: Point, in: Varying, pixel: f32) -> vec3<f32> {
+    let colour = max(in.colour, vec3<f32>(0.0));
+    let fur = clamp(in.surface.x, 0.0, 1.0);
+    let gloss = clamp(in.surface.y, 0.0, 1.0);
+    var light = coat(at, colour, in, fur, pixel);
+    if is_made_of(CLAY) {
+        return CLAY_COLOUR * diffuse(at, 0.15);
+    }
+    if is_made_of(INK) {
+        return vec3<f32>(0.0);
+    }
+    if draft {
+        return light;
+    }
+    // Bare or moist margins shade off into the coat.
+    light += moisture(at, gloss * (1.0 - fur));
+    // Hair keeps most of it to itself.
+    return light + glow(at, colour) * (1.0 - 0.7 * fur);
 }
 
 // One point to be shaded, in the head's frame.
@@ -87,6 +145,10 @@ fn shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
 
 // How much of the rim light reaches a place.
 fn rim_shadow(position: vec3<f32>, normal: vec3<f32>) -> f32 {
+    // Its map is empty in a draft.
+    if draft {
+        return 1.0;
+    }
     let slope = 1.0 - max(dot(normal, globals.rim.xyz), 0.0);
     let out = position + normal * globals.measures.x * (0.003 + 0.006 * slope);
     let place = globals.rim_from_head * vec4<f32>(out, 1.0);
@@ -102,7 +164,9 @@ fn glow(p: Point, colour: vec3<f32>) -> vec3<f32> {
     let key_texel = vec2<i32>(by_key.xy * vec2<f32>(textureDimensions(shadow_map)));
     let rim_texel = vec2<i32>(by_rim.xy * vec2<f32>(textureDimensions(rim_map)));
     let through_key = transmitted((by_key.z - textureLoad(shadow_map, key_texel, 0)) * depth + 0.0006);
-    let through_rim = transmitted((by_rim.z - textureLoad(rim_map, rim_texel, 0)) * depth + 0.0006);
+    let rim_depth = textureLoad(rim_map, rim_texel, 0);
+    // A map in which nothing is, as in a draft, tells nothing.
+    let through_rim = transmitted((by_rim.z - rim_depth) * depth + 0.0006) * select(0.0, 1.0, rim_depth < 1.0);
     let key = globals.key_light.rgb * through_key * smoothstep(-0.05, 0.6, -dot(p.normal, globals.key.xyz));
     let rim = globals.rim_light.rgb * through_rim * smoothstep(-0.05, 0.6, -dot(p.normal, globals.rim.xyz));
     return (key + rim) * sqrt(colour) * 0.6;
@@ -141,17 +205,23 @@ fn lobe(p: Point, light: vec3<f32>, roughness: f32) -> f32 {
 
 // White noise smeared along the hair, minus its mean; about -1 to 1, four independent channels. `width` is that of a
 // streak in metres. Line integral convolution after Cabral and Leedom (1993), along the tangent.
-fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32) -> vec4<f32> {
-    if draft || globals.coat.x >= 1.0 {
+// Curls bend the streaks into rings. `part`: of it that is wanted.
+fn streaks(position: vec3<f32>, along: vec3<f32>, width: f32, curl: f32, part: f32) -> vec4<f32> {
+    if part <= 0.0 {
         return vec4<f32>(0.0);
     }
     let scale = SKEW * (1.0 / (width * 64.0));
+    let straight = 1.0 - 0.8 * curl;
+    let aside = unit(cross(along, position), vec3<f32>(1.0, 0.0, 0.0));
     var sum = vec4<f32>(0.0);
-    for (var i = 0; i < 7; i++) {
+    // A draft has the middle ones.
+    for (var i = select(0, 2, draft); i < select(7, 5, draft); i++) {
         let s = (f32(i) - 3.0) * 1.45 * width;
-        sum += textureSampleLevel(noise_block, noise_sampler, scale * (position + along * s), 0.0);
+        let turn = f32(i) * 0.9;
+        let ring = (aside * sin(turn) + along * cos(turn)) * (curl * 3.0 * width);
+        sum += textureSampleLevel(noise_block, noise_sampler, scale * (position + along * (s * straight) + ring), 0.0);
     }
-    return (sum / 7.0 - 0.5) * 7.6;
+    return (sum / select(7.0, 3.0, draft) - 0.5) * (select(7.6, 5.0, draft) * part);
 }
 
 // Smooth noise of blobs `width` metres across, about -1 to 1; none where strands have their own.
@@ -200,49 +270,53 @@ fn cobbles(position: vec3<f32>) -> vec4<f32> {
 
 // ---- surfaces --------------------------------------------------------------------------------------------------
 
-fn coat(at: Point, colour: vec3<f32>, flow: vec3<f32>, fur: f32) -> vec3<f32> {
+// Haired skin without strands, or between them: streaks along the hair that are lit as strands are.
+fn coat(at: Point, colour: vec3<f32>, in: Varying, fur: f32, pixel: f32) -> vec3<f32> {
     var p = at;
-    let size = globals.measures.x;
+    let n = today(in.growth, in.comb, in.nature, in.age.x);
     let smooth_normal = p.normal;
-    var along = flow - p.normal * dot(flow, p.normal);
+    let lies = unit(in.flow, vec3<f32>(0.0)) + in.comb.xyz;
+    var along = lies - p.normal * dot(lies, p.normal);
     along = unit(along, unit(cross(p.normal, vec3<f32>(1.0, 0.0, 0.0)), vec3<f32>(0.0, 0.0, 1.0)));
+    // The same on the base head, where noise stays in its place whatever the shape does.
+    let rest_along = unit(unit(in.age.yzw, vec3<f32>(0.0)) + in.comb.xyz, vec3<f32>(0.0, 0.0, 1.0));
 
     // Between strands one sees down to where it is dark; they are streak enough.
-    let cover = globals.coat.x * fur;
-    // Two widths of streaks; the finer one fades where a pixel spans more than it.
-    let pixel = max(length(dpdx(p.position)), length(dpdy(p.position)));
-    let fine_width = 0.0013 * size;
-    let lock_width = 0.0042 * size;
-    let clump = blobs(p.position, 0.012 * size);
+    let cover = globals.coat.x;
+    let streaky = 1.0 - cover;
+    // Two widths of streaks, wider in long hair; each fades where a pixel spans more than it.
+    let long = smoothstep(0.003, 0.030, n.length);
+    let fine_width = mix(0.00030, 0.00045, long);
+    let lock_width = mix(0.0009, 0.0018, long);
+    let clump = blobs(in.rest, 0.0036);
     let lean = unit(along + cross(p.normal, along) * clump.x * 0.35, along);
-    let fine = streaks(p.position, lean, fine_width) * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)) * (fur - cover);
-    let locks = streaks(p.position, lean, lock_width) * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)) * (fur - cover);
-    let mottle = blobs(p.position, 0.035 * size).y * fur;
+    let rest_lean = unit(rest_along + clump.xyz * (0.20 + 0.3 * n.wire), rest_along);
+    var fine = vec4<f32>(0.0);
+    // Vertices stand wider than these.
+    if !draft {
+        fine = streaks(in.rest, rest_lean, fine_width, n.curl, streaky * (1.0 - smoothstep(0.6, 1.8, pixel / fine_width)));
+    }
+    let locks = streaks(in.rest, rest_lean, lock_width, n.curl, streaky * (1.0 - smoothstep(0.6, 1.8, pixel / lock_width)));
+    let mottle = blobs(in.rest, 0.0105).y;
 
     let sideways = cross(p.normal, lean);
-    p.normal = unit(p.normal + sideways * (fine.y * 0.26 + locks.y * 0.22) + lean * (locks.z * 0.10), p.normal);
-    let shade = fine.x * 0.18 + locks.x * 0.15 + mottle * 0.08;
-    let albedo = colour * exp(shade) * (1.0 - 0.38 * cover);
-
-    let facing = clamp(dot(smooth_normal, p.view), 0.0, 1.0);
-    var light = albedo * diffuse(p, mix(0.2, 0.45, fur));
-
-    // Two highlights along the hair, after Kajiya and Kay (1989) and the shifts of Scheuermann (2004).
-    let half_way = unit(p.view + globals.key.xyz, p.normal);
-    let first = unit(lean + smooth_normal * (0.10 + 0.05 * fine.w), lean);
-    let second = unit(lean + smooth_normal * (-0.18 + 0.10 * fine.z), lean);
-    let sin_first = sqrt(max(1.0 - pow(dot(first, half_way), 2.0), 0.0));
-    let sin_second = sqrt(max(1.0 - pow(dot(second, half_way), 2.0), 0.0));
-    let reached = p.lit * clamp(dot(smooth_normal, globals.key.xyz) * 1.5 + 0.1, 0.0, 1.0);
-    let gleam = vec3<f32>(0.016) * pow(sin_first, 40.0) + (albedo * 0.20 + 0.006) * pow(sin_second, 12.0);
-    light += globals.key_light.rgb * gleam * reached * fur;
-
-    // Tips that stand off the outline catch what comes from behind and above.
-    let edge = pow(1.0 - facing, 3.0);
-    let behind = globals.rim_light.rgb * max(dot(smooth_normal, globals.rim.xyz) * 0.6 + 0.4, 0.0) * mix(0.3, 1.0, p.rim);
-    let tips = mix(albedo, vec3<f32>(1.0), 0.12) * (1.0 + 0.35 * fine.x);
-    light += tips * (behind * 0.55 + sky(smooth_normal) * 0.5 + globals.key_light.rgb * 0.12 * p.lit) * edge * (fur - cover) * p.open;
-    return light;
+    let bumps = mix(0.6, 1.3, long);
+    p.normal = unit(p.normal + (sideways * (fine.y * 0.20 + locks.y * 0.22) + lean * (locks.z * 0.10)) * bumps, p.normal);
+    // What is seen is the upper part of hairs, and between strands the lower one of others.
+    let seen = mix(0.60, 0.94, long) + 0.20 * fine.x + 0.14 * locks.x;
+    // Few strands hide nothing of the light.
+    let dark = cover * cover;
+    let t = clamp(mix(seen, mix(0.38, 0.20, long), dark), 0.0, 1.0);
+    let deep = clamp(mix(mix(0.42, 0.25, long) - 0.35 * locks.y, 0.65, dark), 0.0, 1.0) * clamp(n.length / 0.008, 0.35, 1.0);
+    var base = mix(colour, woolly(colour), n.undercoat * mix(0.15, 0.7, cover));
+    base = mix(base, GREY, n.grey * clamp(0.9 + fine.z, 0.0, 1.0));
+    let shade = exp(fine.w * 0.16 + locks.x * 0.12 + mottle * 0.10);
+    let albedo = dyed(base, shade, t, n);
+    let heading = unit(lean + smooth_normal * (0.25 * n.lift + 0.15 * fine.z), lean);
+    let random = vec2<f32>(0.5) + fine.zw * 0.4;
+    let hidden = 1.0 - p.open;
+    let light = lit_hair(p.normal, albedo, heading, p.view, t, deep, hidden, n.gloss, p.lit, p.rim, vec3<f32>(0.0), random);
+    return mix(colour * diffuse(p, 0.2), light, fur);
 }
 
 // The normal over a height given by its slope along the base head's axes, after Mikkelsen 2010, "Bump mapping unparametrized
@@ -450,18 +524,11 @@ fn tears(p: Point, colour: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    var view = globals.eye.xyz;
-    if globals.eye.w > 0.5 {
-        view = unit(globals.eye.xyz - in.position, vec3<f32>(0.0, 0.0, 1.0));
+    if draft && kind == COAT && !seen_through {
+        return vec4<f32>(in.shaded, 1.0);
     }
-    var normal = unit(in.normal, view);
-    if !front {
-        normal = -normal;
-    }
-    let open = 1.0 - clamp(in.surface.z, 0.0, 1.0) * 0.9;
-    let point = Point(in.position, normal, view, shadow(in.position, normal), rim_shadow(in.position, normal), open);
+    let point = point(in, front);
     let colour = max(in.colour, vec3<f32>(0.0));
-    let fur = clamp(in.surface.x, 0.0, 1.0);
     let gloss = clamp(in.surface.y, 0.0, 1.0);
 
     var light: vec3<f32>;
@@ -491,11 +558,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
             light = tears(point, colour);
         }
         default: {
-            light = coat(point, colour, in.flow, fur);
-            // Bare or moist margins shade off into the coat.
-            light += moisture(point, gloss * (1.0 - fur));
-            // Hair keeps most of it to itself.
-            light += glow(point, colour) * (1.0 - 0.7 * fur);
+            light = haired(point, in, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
         }
     }
     if is_made_of(CLAY) {
@@ -506,7 +569,7 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     }
     var opacity = 1.0;
     if seen_through {
-        let grazing = 1.0 - clamp(dot(normal, view), 0.0, 1.0);
+        let grazing = 1.0 - clamp(dot(point.normal, point.view), 0.0, 1.0);
         opacity = mix(globals.measures.w, 1.0, 0.85 * grazing * grazing * grazing);
     }
     return vec4<f32>(encoded(film(light)) * opacity, opacity);

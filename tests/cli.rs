@@ -660,6 +660,51 @@ fn presets_grounds_samples_and_close_ups_change_nothing() {
 }
 
 #[test]
+fn a_word_about_the_coat_of_today_changes_nothing_or_is_not_known_to_a_command() {
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    let draw = |options: &[&str]| {
+        let common =
+            ["render", "--breed", "pug", "--level", "1", "--size", "48x48", "--hair", "3000", "-o", text(&path)];
+        done(&[&common[..], options].concat());
+        std::fs::read(&path).unwrap()
+    };
+    let words: [&[&str]; 6] = [
+        &[],
+        &["--fur-length", "2"],
+        &["--fur-density", "0.2"],
+        &["--clipped", "1"],
+        &["--wet", "1"],
+        &["--grey", "0.8"],
+    ];
+    let pictures = words.map(draw);
+    for (i, one) in pictures.iter().enumerate() {
+        assert!(pictures[..i].iter().all(|other| other != one), "{:?} is like another", words[i]);
+    }
+    for command in ["render", "sheet", "atlas", "view"] {
+        let help = done(&[command, "--help"]).stdout;
+        assert!(words.iter().flat_map(|w| w.first()).all(|word| help.contains(word)), "{command}");
+        assert!(help.contains("--hair"), "{command}");
+    }
+    refused(&["sheet", "--wet", "2", "-o", "a.png"], 2, &["0 to 1"]);
+    refused(&["view", "--fur-length", "4"], 2, &["0 to 3"]);
+}
+
+#[test]
+fn what_a_picture_costs_is_not_told_by_pass_and_level_of_hair() {
+    let told = done(&["bench", "--passes", "--level", "0", "--size", "32x24", "--breed", "pug", "--draft", "--json"]);
+    let told: Value = serde_json::from_str(&told.stdout).unwrap();
+    let levels = told["levels"].as_array().unwrap();
+    let names: Vec<&str> = levels.iter().map(|l| l["hair"].as_str().unwrap()).collect();
+    assert_eq!(names, ["off", "low", "medium", "high"]);
+    for level in levels {
+        assert_eq!(level["ms"].as_object().unwrap().len(), 5);
+        assert!(level["picture_ms"].as_f64().unwrap() > 0.0);
+    }
+    refused(&["bench", "--passes", "--normals"], 2, &["cannot be used with"]);
+}
+
+#[test]
 fn words_about_pictures_that_make_no_sense_are_wrong_use() {
     let with = |option: &str, value: &str, words: &[&str]| {
         refused(&["render", "--breed", "pug", option, value, "-o", "x.png"], 2, words);

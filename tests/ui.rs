@@ -6,6 +6,7 @@ use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use londra::anatomy::{Breed, ParamTable};
 use londra::app::{Command, Document, EditorState, files, panels};
+use londra::coat::Condition;
 use londra::frame::{Layers, Pipeline, StageHashes};
 use londra::measure::Calliper;
 use londra::rig::Rig;
@@ -456,4 +457,25 @@ fn a_measure_that_follows_cannot_be_unlinked_or_linked_again() {
     drag(&mut harness, 90.0);
     assert_eq!(value(&harness), wide);
     assert!(harness.state().is_overridden(length));
+}
+
+// ---- the coat today ----
+
+#[test]
+fn a_slider_of_the_coat_changes_the_breed_or_nothing() {
+    let mut harness = harness();
+    let before = harness.state().breed().clone();
+    harness.get_by_label("Coat today").click();
+    harness.run();
+    for (k, field) in Condition::FIELDS.into_iter().enumerate() {
+        harness.get_by_role_and_label(Role::Slider, field.label).set_value_accesskit(0.25 + 0.1 * k as f64);
+        harness.run();
+        let mut condition = harness.state().condition;
+        assert!((*(field.of)(&mut condition) - 0.25 - 0.1 * k as f32).abs() < 0.01, "{}", field.label);
+    }
+    assert_eq!(*harness.state().breed(), before);
+    assert!(!harness.state().can_undo());
+    harness.get_by_label("As the breed is").click();
+    harness.run();
+    assert_eq!(harness.state().condition, Condition::default());
 }

@@ -3,12 +3,13 @@
 //! Version 1 had one coat, whose `marks` were colours over regions: they become [`MarkingKind::Patch`] layers.
 
 use super::file::read_colour;
-use super::locate::{Item, Node};
+use super::locate::{Item, Node, Place};
 use super::read::{Fields, Problems};
 use super::{
-    Eumelanin, Hair, Look, Marking, MarkingKind, Paint, Pattern, Pigments, ProblemKind, Region, Variety, hair, look,
-    nearest,
+    Eumelanin, Hair, Look, Marking, MarkingKind, Paint, Pattern, Pigments, ProblemKind, Region, RegionHair, Variety,
+    hair, look, nearest, region_hair,
 };
+use std::collections::BTreeMap;
 
 /// Fields of a coat, in the order in which they are written.
 const FIELDS: [&str; 11] =
@@ -85,7 +86,7 @@ fn read_look(node: &Node, path: &str, version: u32, first: Option<&Look>, proble
     let pattern = read_pattern(&fields, version, problems);
     let mut look = Look::of(pattern);
     if let Some(first) = first {
-        (look.mouth, look.fur, look.hair) = (first.mouth, first.fur, first.hair);
+        (look.mouth, look.fur, look.hair) = (first.mouth, first.fur, first.hair.clone());
     }
     for (key, colour) in
         [("nose", &mut look.nose), ("lips", &mut look.lips), ("mouth", &mut look.mouth), ("iris", &mut look.iris)]
@@ -161,7 +162,44 @@ fn read_hair(node: &Node, path: &str, problems: &mut Problems) -> Option<Hair> {
             Some((value * field.unit()) as f32)
         })
         .collect();
-    Some(Hair::from_given(|i| given[i]))
+    let mut hair = Hair::from_given(|i| given[i]);
+    if let Some(node) = fields.get(hair::REGIONS) {
+        hair.regions = read_region_hairs(node, &fields.path_of(hair::REGIONS), problems);
+    }
+    Some(hair)
+}
+
+/// `{"region": (curl: 0.8, …), …}`.
+fn read_region_hairs(node: &Node, path: &str, problems: &mut Problems) -> BTreeMap<Region, RegionHair> {
+    let mut hairs = BTreeMap::new();
+    for (name, at, node) in problems.map(node, path) {
+        let Some(region) = region(name, at, problems) else { continue };
+        if region.is_bare() {
+            problems.push(at, ProblemKind::BareRegion { field: path.to_owned(), name: name.to_owned() });
+            continue;
+        }
+        let path = format!("{path}[{name:?}]");
+        let Some(fields) = problems.fields(node, &path, "RegionHair", &region_hair::NAMES) else { continue };
+        let told = RegionHair::from_fields(|field| {
+            let [min, max] = field.range;
+            let value = problems.number_in(fields.get(field.name)?, &fields.path_of(field.name), min, max)?;
+            Some((value * field.unit()) as f32)
+        });
+        if !told.is_empty() {
+            hairs.insert(region, told);
+        }
+    }
+    hairs
+}
+
+/// A region by its name; one that is unknown is told of.
+fn region(name: &str, at: Place, problems: &mut Problems) -> Option<Region> {
+    let region = Region::from_name(name);
+    if region.is_none() {
+        let nearest = near(name, Region::ALL.iter().map(|r| r.name()));
+        problems.push(at, ProblemKind::UnknownRegion { name: name.to_owned(), nearest });
+    }
+    region
 }
 
 /// `Kind(colour: …, amount: …, …)`.
@@ -221,13 +259,7 @@ fn read_regions(fields: &Fields<'_>, problems: &mut Problems) -> Vec<Region> {
     let mut regions = Vec::new();
     for node in problems.list(node, &path) {
         let Some(name) = problems.text(node, &path) else { continue };
-        match Region::from_name(&name) {
-            Some(region) => regions.push(region),
-            None => {
-                let near = near(&name, Region::ALL.iter().map(|r| r.name()));
-                problems.push(node.place, ProblemKind::UnknownRegion { name, nearest: near });
-            }
-        }
+        regions.extend(region(&name, node.place, problems));
     }
     regions
 }

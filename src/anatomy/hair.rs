@@ -1,7 +1,11 @@
 //! What a breed's hair is like: how long where, and how it stands.
 
+use super::Region;
+use super::region_hair::{self, RegionHair, Tuft};
+use std::collections::BTreeMap;
+
 /// Hair of a head. Lengths in metres, 0 to 0.2; everything else is a number from 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Hair {
     /// On the muzzle.
     pub muzzle: f32,
@@ -31,6 +35,10 @@ pub struct Hair {
     pub gloss: f32,
     /// 0 bare, 1 as dense as hair is drawn.
     pub density: f32,
+    /// How much of the coat is a dense, short and pale second layer below the rest: 0 none, 1 as in sledge dogs.
+    pub undercoat: f32,
+    /// Where hair is another than all this makes it.
+    pub regions: BTreeMap<Region, RegionHair>,
 }
 
 /// The longest hair that a file may ask for, metres.
@@ -76,7 +84,7 @@ macro_rules! field {
 }
 
 /// Every number, in the order in which they are written; one that others are parts of stands before them.
-pub(super) const FIELDS: [HairField; 14] = [
+pub(super) const FIELDS: [HairField; 15] = [
     field!("muzzle_mm", muzzle, Otherwise::Value(0.004)),
     field!("head_mm", head, Otherwise::Value(0.008)),
     field!("topknot_mm", topknot, Otherwise::Part(1.0, |h| h.head)),
@@ -91,11 +99,15 @@ pub(super) const FIELDS: [HairField; 14] = [
     field!("wire", wire, Otherwise::Value(0.2)),
     field!("gloss", gloss, Otherwise::Value(0.4)),
     field!("density", density, Otherwise::Value(1.0)),
+    field!("undercoat", undercoat, Otherwise::Value(0.0)),
 ];
 
+/// The field of a file's `hair: (…)` that tells of single regions.
+pub(super) const REGIONS: &str = "regions";
+
 /// The names of a file's fields, in the order in which they are written.
-pub(super) const NAMES: [&str; FIELDS.len()] = {
-    let mut names = [""; FIELDS.len()];
+pub(super) const NAMES: [&str; FIELDS.len() + 1] = {
+    let mut names = [REGIONS; FIELDS.len() + 1];
     let mut i = 0;
     while i < FIELDS.len() {
         names[i] = FIELDS[i].name;
@@ -129,6 +141,8 @@ impl Hair {
             wire: 0.0,
             gloss: 0.0,
             density: 0.0,
+            undercoat: 0.0,
+            regions: BTreeMap::new(),
         };
         for (i, field) in FIELDS.iter().enumerate() {
             *(field.of)(&mut hair) = given(i).unwrap_or_else(|| match &field.otherwise {
@@ -139,13 +153,41 @@ impl Hair {
         hair
     }
 
-    /// The weighted mean of every number. Weights sum to 1.
+    /// Hair of one region: what the region is told to be, else what the rest of the head makes it.
+    pub fn at(&self, region: Region) -> Tuft {
+        let mut tuft = region_hair::of_head(self, region);
+        if let Some(own) = self.regions.get(&region) {
+            own.put_on(&mut tuft);
+        }
+        tuft
+    }
+
+    /// The longest hair anywhere, metres.
+    pub fn longest(&self) -> f32 {
+        Region::ALL.iter().map(|&region| self.at(region).length).fold(0.0, f32::max)
+    }
+
+    /// The weighted mean of every number, and in a region of which one of them tells something the mean of what they are
+    /// there. Weights sum to 1.
     pub(super) fn blend<'a>(hairs: impl Iterator<Item = (&'a Hair, f64)> + Clone) -> Self {
-        Self::from_given(|i| {
+        let mean = |of: &dyn Fn(&Hair) -> f32| {
+            hairs.clone().fold(0.0, |sum, (hair, weight)| sum + f64::from(of(hair)) * weight) as f32
+        };
+        let mut blend = Self::from_given(|i| {
             let field = &FIELDS[i];
-            let mean = hairs.clone().fold(0.0, |sum, (hair, weight)| sum + f64::from((field.get)(hair)) * weight);
             let most = if field.is_length() { LONGEST } else { 1.0 };
-            Some((mean as f32).clamp(0.0, most))
-        })
+            Some(mean(&|hair| (field.get)(hair)).clamp(0.0, most))
+        });
+        for region in Region::ALL {
+            let told = RegionHair::from_fields(|field| {
+                let is_told = |(hair, _): (&Hair, f64)| hair.regions.get(&region).is_some_and(|own| own.tells(field));
+                let value = || mean(&|hair: &Hair| *(field.of)(&mut hair.at(region)));
+                hairs.clone().any(is_told).then(value).map(|v| v.clamp(field.min_si(), field.max_si()))
+            });
+            if !told.is_empty() {
+                blend.regions.insert(region, told);
+            }
+        }
+        blend
     }
 }

@@ -129,6 +129,14 @@ pub enum ProblemKind {
         /// Known regions with similar names.
         nearest: Vec<String>,
     },
+    /// A region that bears no hair.
+    #[error("{field}: no hair grows on {name}; leave it out")]
+    BareRegion {
+        /// Path of the field.
+        field: String,
+        /// The region.
+        name: String,
+    },
     /// No such kind of marking.
     #[error("{field}: unknown marking {name}{}; allowed are {}", did_you_mean(nearest), allowed.join(", "))]
     UnknownMarking {

@@ -1,7 +1,7 @@
 //! [`Breed`] to text.
 
 use super::file::NEWEST;
-use super::{Breed, Hair, ParamTable, Reference, Variety, coat_file, colour, hair, param};
+use super::{Breed, Hair, ParamTable, Reference, Region, RegionHair, Variety, coat_file, colour, hair, param};
 use glam::Vec3;
 use std::fmt::Write;
 
@@ -56,12 +56,22 @@ fn write_breed(out: &mut String, table: &ParamTable, breed: &Breed) -> std::fmt:
 }
 
 pub(super) fn hair_text(hair: &Hair) -> String {
-    let numbers = hair::FIELDS.iter().map(|field| {
-        let (value, unit) = ((field.get)(hair), field.unit());
-        let is_same = |c: f64| ((c * unit) as f32).to_bits() == value.to_bits();
-        format!("{}: {:?}", field.name, param::shortest(f64::from(value) / unit, is_same))
-    });
-    numbers.collect::<Vec<_>>().join(", ")
+    let mut out: Vec<String> = hair::FIELDS.iter().map(|f| number_text(f.name, (f.get)(hair), f.unit())).collect();
+    if !hair.regions.is_empty() {
+        let of_region = |(region, told): (&Region, &RegionHair)| {
+            let numbers: Vec<String> = told.fields().map(|(f, value)| number_text(f.name, value, f.unit())).collect();
+            format!("\"{}\": ({})", region.name(), numbers.join(", "))
+        };
+        let regions: Vec<String> = hair.regions.iter().map(of_region).collect();
+        out.push(format!("{}: {{{}}}", hair::REGIONS, regions.join(", ")));
+    }
+    out.join(", ")
+}
+
+/// `name: value`, the shortest that is read as the same bits; `unit`: of the file, in the value's own.
+fn number_text(name: &str, value: f32, unit: f64) -> String {
+    let is_same = |c: f64| ((c * unit) as f32).to_bits() == value.to_bits();
+    format!("{name}: {:?}", param::shortest(f64::from(value) / unit, is_same))
 }
 
 pub(super) fn colour_text(linear: Vec3) -> String {

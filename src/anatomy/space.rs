@@ -86,7 +86,7 @@ impl Space {
         let drawn = self.mean.iter().zip(&self.factor).map(|(m, row)| m + dot(row, &deviates));
         let point: Vec<f64> = drawn.zip(&self.span).map(|(x, [low, high])| x.clamp(*low, *high)).collect();
         let mut dog = self.dog(table, &point);
-        let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair);
+        let hair = coats.get(rng.below(coats.len())).map_or_else(Hair::default, |coat| coat.look.hair.clone());
         dog.look = Look { hair, ..Look::of(random_pattern(rng)) };
         locks.hold(base, &mut dog);
         dog

@@ -84,7 +84,7 @@ impl Host {
         state.problems.extend(problems);
         state.say(format!("Drawn by {}. Press ? for the keys.", gpu.name()));
         let largest = gpu.device.limits().max_texture_dimension_2d as usize;
-        let turn = Turn::new(gpu, format, &sources, state).map_err(|e| HostError::Other(e.to_string()))?;
+        let turn = Turn::new(gpu, format, &sources, state, launch).map_err(|e| HostError::Other(e.to_string()))?;
         let scale = Some(window.scale_factor() as f32);
         let (context, viewport) = (turn.context.clone(), egui::ViewportId::ROOT);
         let egui = egui_winit::State::new(context, viewport, &window, scale, window.theme(), Some(largest));

@@ -4,6 +4,7 @@ use super::dialog::Purpose;
 use super::files;
 use super::host::{Host, HostError};
 use super::state::EditorState;
+use crate::coat::Condition;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -44,7 +45,7 @@ impl AppError {
 }
 
 /// What the window begins with.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Launch {
     /// A breed's file to open, or a breed's name; the first of the list if there is none.
     pub breed: Option<String>,
@@ -52,6 +53,12 @@ pub struct Launch {
     pub rigs: Option<PathBuf>,
     /// A folder like `shaders/` that overrides the program's own and is watched.
     pub shaders: Option<PathBuf>,
+    /// Of subdivision; what suits the driver if nobody says.
+    pub level: Option<u32>,
+    /// Strands of hair; as many as suit the driver if nobody says.
+    pub n_strands: Option<u32>,
+    /// What the coat is like today.
+    pub condition: Condition,
 }
 
 impl Launch {
@@ -63,7 +70,7 @@ impl Launch {
         };
         let named = std::env::var_os("LONDRA_RIGS").filter(|f| !f.is_empty()).map(PathBuf::from);
         let rigs = named.or_else(|| with("rigs", "anatomy.ron"));
-        Self { breed: None, rigs, shaders: with("shaders", "mesh.wgsl") }
+        Self { rigs, shaders: with("shaders", "mesh.wgsl"), ..Self::default() }
     }
 }
 
@@ -102,7 +109,9 @@ fn reason(error: &winit::error::EventLoopError) -> String {
 pub(super) fn begin(launch: &Launch) -> Result<EditorState, AppError> {
     let (table, breeds) = files::read_rigs(launch.rigs.as_deref()).map_err(AppError::File)?;
     let document = files::first_document(&table, &breeds, launch.breed.as_deref()).map_err(AppError::File)?;
-    Ok(EditorState::new(table, breeds, document))
+    let mut state = EditorState::new(table, breeds, document);
+    state.condition = launch.condition;
+    Ok(state)
 }
 
 /// What other threads wake the window with.

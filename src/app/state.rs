@@ -4,6 +4,7 @@ use super::chance::Chance;
 use super::history::History;
 use super::measures::Measures;
 use crate::anatomy::{Breed, ParamTable};
+use crate::coat::Condition;
 use crate::frame::Layers;
 use crate::render::{Background, Camera, Lens, Preset, Shading, View};
 use glam::Vec3;
@@ -156,6 +157,8 @@ pub struct EditorState {
     pub layers: Layers,
     /// Strands of hair on the head.
     pub n_strands: u32,
+    /// What the coat is like today.
+    pub condition: Condition,
     /// From where.
     pub camera: Camera,
     /// The camera is to be fitted to the head before the next picture.
@@ -210,6 +213,7 @@ impl EditorState {
             shading: Shading::Shaded,
             layers: Layers::default(),
             n_strands: 0,
+            condition: Condition::default(),
             camera: Camera::at(View::Portrait, None, Lens::default()),
             wants_fit: true,
             light_turn: 0.0,

@@ -3,6 +3,7 @@
 //! The window runs it, and so does the measurement of it, so that what is measured is what runs.
 
 use super::panels;
+use super::run::Launch;
 use super::scene::Scene;
 use super::state::EditorState;
 use crate::frame::{Frame, Pipeline, PipelineError};
@@ -26,8 +27,11 @@ pub(super) enum TurnError {
     Pipeline(#[from] PipelineError),
 }
 
-/// Strands of hair on a window's head at first, where a graphics card draws it.
+/// Strands of hair on a window's head at first, where a graphics card draws it and where a processor does.
 const HAIR: u32 = 90_000;
+const HAIR_BY_SOFTWARE: u32 = 2000;
+/// How finely a head is made at first where a processor draws.
+const LEVEL_BY_SOFTWARE: u32 = 3;
 
 /// What a window shows and what draws it; as long as the device.
 pub(super) struct Turn {
@@ -55,15 +59,18 @@ pub(super) struct Recorded {
 }
 
 impl Turn {
-    /// `format`: of what the panels are painted on.
+    /// `format`: of what the panels are painted on; level and hair are those of the launch, or what suits the driver.
     pub(super) fn new(
         gpu: Gpu,
         format: wgpu::TextureFormat,
         sources: &ShaderSources,
         mut state: EditorState,
+        launch: &Launch,
     ) -> Result<Self, TurnError> {
-        // A software driver would take seconds for a picture.
-        state.n_strands = if gpu.is_software() { 0 } else { HAIR };
+        let (level, n_strands) =
+            if gpu.is_software() { (LEVEL_BY_SOFTWARE, HAIR_BY_SOFTWARE) } else { (state.level(), HAIR) };
+        state.set_level(launch.level.unwrap_or(level));
+        state.n_strands = launch.n_strands.unwrap_or(n_strands);
         let context = egui::Context::default();
         panels::set_fonts(&context);
         let mut renderer = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
@@ -161,6 +168,7 @@ pub(super) fn drawing(state: &EditorState, pixels_per_point: f32) -> Drawing {
         skin_opacity: state.layers.skin,
         // Hair would hide the lines.
         n_strands: if state.shading == Shading::Shaded && state.preset().has_hair() { state.n_strands } else { 0 },
+        condition: state.condition,
         samples: Samples::FEWEST,
         pixels_per_point,
     }

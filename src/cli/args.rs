@@ -2,6 +2,7 @@
 
 use super::turntable::Pattern;
 use super::values::{self, Ground, Setting, Share};
+use crate::coat::Condition;
 use crate::frame::Layers;
 use crate::render::{Dress, Lens, Preset, Samples, View as Direction};
 use crate::subdiv::{BoundaryRule, Creasing, LoopWeights, Rim, Scheme};
@@ -75,7 +76,8 @@ pub(super) enum Command {
 }
 
 #[derive(Args, Debug, Default)]
-#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron\n  londra view --measure 200 --json")]
+#[command(after_help = "Examples:\n  londra view\n  londra view mine.ron\n  londra view --measure 200 --json\n  \
+    londra view --measure 40 --size 1172x690 --hair low")]
 pub(super) struct View {
     /// A breed's file to open
     #[arg(value_name = "FILE.ron")]
@@ -83,6 +85,14 @@ pub(super) struct View {
     /// Open no window: run so many of its pictures with a slider moving, and print what its own work takes
     #[arg(long, value_name = "PICTURES", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub measure: Option<u32>,
+    /// Width and height of the window that is measured, pixels
+    #[arg(long, value_name = "WxH", value_parser = values::size, requires = "measure")]
+    pub size: Option<Size>,
+    /// Level of subdivision to begin with, 0 to 5; without it 4, or 3 where a processor draws
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_LEVEL))]
+    pub level: Option<u32>,
+    #[command(flatten)]
+    pub fur: Fur,
     /// Print a JSON object
     #[arg(long, requires = "measure")]
     pub json: bool,
@@ -157,16 +167,53 @@ pub(super) struct Scene {
     /// through; without it, what the preset has
     #[arg(long, value_name = "A,B,C", value_parser = Layers::parse)]
     pub layers: Option<Layers>,
-    /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
-    /// one head, low for a sheet, off below lines and where the preset has none
-    #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
-    pub hair: Option<u32>,
+    #[command(flatten)]
+    pub fur: Fur,
     /// How far the lids are closed, 0 to 1; two numbers with a comma: the left ones and the right ones
     #[arg(long, value_name = "PART|L,R", default_value = "0", value_parser = values::lids_closed)]
     pub lids_closed: Lids,
     /// Draw lines over the surfaces: the edges of the control mesh, or with =refined every edge
     #[arg(long, value_name = "control|refined", num_args = 0..=1, require_equals = true, default_missing_value = "control")]
     pub wireframe: Option<Wires>,
+}
+
+/// How much hair, and what it is like today.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(super) struct Fur {
+    /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
+    /// one head, low for a sheet, 2000 for a window that a processor draws, off for an atlas, below lines and where the preset
+    /// has none
+    #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
+    pub hair: Option<u32>,
+    /// Times the breed's length of hair, 0 to 3
+    #[arg(long, value_name = "TIMES", value_parser = values::fur_length)]
+    pub fur_length: Option<f32>,
+    /// Part of the breed's hairs that are there, 0 to 1
+    #[arg(long, value_name = "PART", value_parser = values::part)]
+    pub fur_density: Option<f32>,
+    /// How much of the coat is clipped to 4 mm, 0 to 1
+    #[arg(long, value_name = "PART", value_parser = values::part)]
+    pub clipped: Option<f32>,
+    /// How wet it is, 0 to 1
+    #[arg(long, value_name = "PART", value_parser = values::part)]
+    pub wet: Option<f32>,
+    /// How grey with age, 0 to 1: from the chin backwards and around the eyes
+    #[arg(long, value_name = "PART", value_parser = values::part)]
+    pub grey: Option<f32>,
+}
+
+impl Fur {
+    /// What the coat is like today.
+    pub(super) fn condition(&self) -> Condition {
+        let usual = Condition::default();
+        Condition {
+            length: self.fur_length.unwrap_or(usual.length),
+            density: self.fur_density.unwrap_or(usual.density),
+            clipped: self.clipped.unwrap_or(usual.clipped),
+            wet: self.wet.unwrap_or(usual.wet),
+            grey: self.grey.unwrap_or(usual.grey),
+        }
+    }
 }
 
 /// How far the lids are closed, left and right.
@@ -338,6 +385,8 @@ pub(super) struct Atlas {
     /// Show every measure in this view, as for render; without it, in the one that shows it best
     #[arg(long, value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION", allow_hyphen_values = true)]
     pub view: Option<Direction>,
+    #[command(flatten)]
+    pub fur: Fur,
     /// Write a file for each group, such as atlas_ears.png beside atlas.png
     #[arg(long)]
     pub split: bool,
@@ -617,6 +666,7 @@ pub(super) struct Subdivide {
     after_help = "Every frame has other control positions. x_copy compares with copying all that is delivered.\n\n\
     Examples:\n  \
     londra bench --scheme sqrt3 --level 4 --normals\n  \
+    londra bench --passes\n  \
     londra bench mesh.obj --scheme loop --level 3 --limit --threads 2 --json"
 )]
 pub(super) struct Bench {
@@ -624,11 +674,23 @@ pub(super) struct Bench {
     #[arg(value_name = "MESH")]
     pub mesh: Option<PathBuf>,
     /// The scheme of all steps
-    #[arg(long, value_parser = values::scheme())]
+    #[arg(long, value_parser = values::scheme(), default_value = "sqrt3")]
     pub scheme: Scheme,
     /// Number of steps
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=MOST_STEPS))]
     pub level: u32,
+    /// Time what each pass of a picture of the head costs instead, for each level of hair
+    #[arg(long, conflicts_with_all = ["mesh", "scheme", "threads", "limit", "normals"])]
+    pub passes: bool,
+    /// Width and height of that picture, pixels
+    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = values::size, requires = "passes")]
+    pub size: Size,
+    /// The breed on it
+    #[arg(long, value_name = "NAME|FILE.ron", default_value = "labrador", requires = "passes")]
+    pub breed: String,
+    /// Draw it as a window does on a software driver, whatever the driver is
+    #[arg(long, requires = "passes")]
+    pub draft: bool,
     /// Threads to compute with, 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub threads: u32,

@@ -1,6 +1,6 @@
 //! `londra atlas`: what every measure does, at the low end, the middle and the high end of its range.
 
-use super::args::Atlas;
+use super::args::{Atlas, Fur};
 use super::rigs::Rigs;
 use super::{Failure, output, picture, values};
 use crate::anatomy::{Breed, ParamSpec, ParamTable};
@@ -44,12 +44,10 @@ pub(super) fn run(args: &Atlas) -> Result<(), Failure> {
     let groups = groups(&rigs.table, &args.group)?;
     let breed = rigs.breed(&args.breed)?;
     let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
-    let mut studio = Studio {
-        pipeline: Pipeline::new(rig, LEVEL).map_err(Failure::work)?,
-        offscreen: picture::offscreen()?,
-        size: args.size,
-        view: args.view,
-    };
+    let mut pipeline = Pipeline::new(rig, LEVEL).map_err(Failure::work)?;
+    pipeline.set_hair(args.fur.hair.unwrap_or(0) as usize);
+    let mut studio =
+        Studio { pipeline, fur: args.fur, offscreen: picture::offscreen()?, size: args.size, view: args.view };
     let (mut sections, mut changes) = (Vec::new(), Vec::new());
     for group in &groups {
         let mut strips = Vec::new();
@@ -149,6 +147,7 @@ fn aspect(spec: &ParamSpec) -> (View, Focus) {
 /// What pictures are made with.
 struct Studio {
     pipeline: Pipeline,
+    fur: Fur,
     offscreen: Offscreen,
     size: [u32; 2],
     /// For all, instead of the one that shows a measure best.
@@ -176,7 +175,12 @@ impl Studio {
         }
         let mut camera = Camera::at(view, None, Lens::default());
         camera.fit(points.iter(), self.size[0] as f32 / self.size[1] as f32, MARGIN);
-        let drawing = Drawing { background: Background::Plain(PAPER), ..Drawing::new(camera) };
+        let drawing = Drawing {
+            background: Background::Plain(PAPER),
+            n_strands: self.fur.hair.unwrap_or(0),
+            condition: self.fur.condition(),
+            ..Drawing::new(camera)
+        };
         let mut cells = Vec::new();
         for (head, caption) in heads {
             let frame = self.pipeline.update(&head);

@@ -17,6 +17,7 @@ mod list;
 mod measure;
 mod mesh_picture;
 mod output;
+mod passes;
 mod picture;
 mod rigs;
 mod similarity;
@@ -71,6 +72,7 @@ fn run(cli: Cli) -> Result<(), Failure> {
         Command::Uv(args) => uv::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Subdivide(args) => subdivide::run(&args),
+        Command::Bench(args) if args.passes => passes::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Similarity(args) => similarity::run(&args),
     }

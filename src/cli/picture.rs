@@ -6,7 +6,7 @@ use super::{Failure, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::{Frame, Layers, Pipeline};
 use crate::measure::{Landmark, Side, skin_landmarks};
-use crate::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
+use crate::render::{Background, Camera, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use crate::rig::Pose;
 use glam::Vec3;
 use serde_json::json;
@@ -39,7 +39,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let facts = json!({
         "output": args.target.output.display().to_string(), "width": picture.width, "height": picture.height,
         "breed": breed.id, "label": breed.label, "level": args.detail.level, "triangles": frame.n_triangles(),
-        "strands": frame.coat.map_or(0, |c| c.roots.len()),
+        "strands": frame.coat.map_or(0, |_| hair(&args.scene, HAIR)),
     });
     write(args.target.output.as_path(), args.target.report.json, &picture, facts)
 }
@@ -61,6 +61,7 @@ pub(super) fn drawing(scene: &Scene, camera: Camera) -> Drawing {
         skin_opacity: layers(scene).skin,
         shading: shading(scene),
         n_strands: hair(scene, HAIR),
+        condition: scene.fur.condition(),
         ..Drawing::new(camera)
     }
 }
@@ -103,6 +104,11 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     sheet.shading = shading(&args.scene);
     sheet.heads_across = args.columns;
     sheet.dresses.clone_from(&args.dress);
+    // Room is left for hair where some is drawn.
+    let wears_coat = args.dress.is_empty() || args.dress.contains(&Dress::Coat);
+    let strands = |scene: &Scene| if wears_coat { hair(scene, SHEET_HAIR) } else { 0 };
+    let most = presets.iter().map(|&preset| strands(&Scene { preset, ..args.scene })).max();
+    pipeline.set_hair(most.unwrap_or(0) as usize);
     for breed in &breeds {
         sheet.measure(&pipeline.update(breed));
     }
@@ -110,10 +116,11 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         let scene = Scene { preset, ..args.scene };
         let layers = layers(&scene);
         pipeline.set_layers(layers).map_err(Failure::work)?;
-        let n_strands = hair(&scene, SHEET_HAIR);
+        let n_strands = strands(&scene);
         pipeline.set_hair(n_strands as usize);
         (sheet.preset, sheet.background) = (preset, background(&scene));
         (sheet.skin_opacity, sheet.n_strands) = (layers.skin, n_strands);
+        sheet.condition = scene.fur.condition();
         for breed in &breeds {
             let name = match args.presets.is_empty() {
                 true => breed.label.clone(),
@@ -181,7 +188,7 @@ fn landmark(all: &[Landmark], word: &str) -> Result<Vec3, Failure> {
 
 /// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces and the preset has hair.
 fn hair(scene: &Scene, otherwise: u32) -> u32 {
-    scene.hair.unwrap_or(if scene.wireframe.is_some() || !scene.preset.has_hair() { 0 } else { otherwise })
+    scene.fur.hair.unwrap_or(if scene.wireframe.is_some() || !scene.preset.has_hair() { 0 } else { otherwise })
 }
 
 fn shading(scene: &Scene) -> Shading {

@@ -104,6 +104,24 @@ pub(super) fn hair(text: &str) -> Result<u32, String> {
     })
 }
 
+/// A part of something: 0 to 1.
+pub(super) fn part(text: &str) -> Result<f32, String> {
+    between(text, 1.0)
+}
+
+/// Times the breed's length of hair.
+pub(super) fn fur_length(text: &str) -> Result<f32, String> {
+    between(text, 3.0)
+}
+
+fn between(text: &str, most: f64) -> Result<f32, String> {
+    let number = number(text)?;
+    match (0.0..=most).contains(&number) {
+        true => Ok(number as f32),
+        false => Err(format!("{number} is not allowed, say 0 to {most}")),
+    }
+}
+
 /// How many times larger.
 pub(super) fn zoom(text: &str) -> Result<f32, String> {
     let times = number(text)?;

@@ -83,6 +83,11 @@ impl Chart {
         self.place.is_empty()
     }
 
+    /// Where hair lies on the base head at each vertex, about unit length; zero where there is none.
+    pub fn flow(&self) -> &[Vec3] {
+        &self.flow
+    }
+
     /// The site of a vertex.
     pub fn vertex(&self, v: usize) -> Site {
         Site { place: self.place[v], ear: self.ear[v], flow: self.flow[v], fibre: Fibre::Skin }

@@ -1,7 +1,7 @@
-//! Length and direction of hair at every control vertex, by its region.
+//! What hair is like at every control vertex, by its region.
 
-use super::{borders, is_bare};
-use crate::anatomy::{Hair, Region};
+use super::borders;
+use crate::anatomy::{Hair, Region, Tuft};
 use crate::mesh::VertexId;
 use crate::rig::Rig;
 use glam::{Vec3, vec3};
@@ -12,96 +12,113 @@ const ROUNDS: usize = 2;
 const BESIDE_BARE: f32 = 0.8;
 /// Hair on the rim of the nose pad and on the fold of the lids, as a part of the muzzle's, and at most, metres.
 const BORDER: (f32, f32) = (0.4, 0.002);
-/// The longest hair around the eyes, metres: beyond it no dog would see.
-const AROUND_EYES: f32 = 0.007;
 
-/// The longest hair between the eyes, metres, where it lies backwards.
-const BEFORE_EYES: f32 = 0.022;
+/// Hair at a vertex of the skin, as the shaders read it: sixteen numbers.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Groom {
+    /// Metres; 0 where no hair grows.
+    pub length: f32,
+    /// How far hair stands off the skin: about 0 lies close, 1 stands.
+    pub lift: f32,
+    /// How deep the place is hidden, 0 to 1.
+    pub hidden: f32,
+    /// 0 dull, 1 silky.
+    pub gloss: f32,
+    /// What is to be added to the unit direction in which hair grows, head's frame.
+    pub comb: Vec3,
+    /// Part of the strands that grow.
+    pub density: f32,
+    /// 0 straight, 1 in ringlets.
+    pub curl: f32,
+    /// 0 each hair for itself, 1 in locks.
+    pub clump: f32,
+    /// 0 soft, 1 stiff as wire.
+    pub wire: f32,
+    /// Part of the strands that are undercoat.
+    pub undercoat: f32,
+    /// How early hair turns grey there, 0 to 1.
+    pub grey: f32,
+    /// Where hair lies on the base head; about unit length, zero where there is none.
+    pub rest_flow: Vec3,
+}
 
-/// Length in metres of a region's hair, and how far it stands off the skin, as a factor.
-fn growth(hair: &Hair, region: Region) -> (f32, f32) {
-    use Region::*;
-    let Hair { muzzle, head, topknot, neck, ear, fringe, beard, brow, .. } = *hair;
-    let mean = |a: f32, b: f32| 0.5 * (a + b);
-    match region {
-        Nose | Nostril | Lid | Mouth => (0.0, 0.0),
-        UpperLip | LowerLip => ((0.9 * muzzle).min(0.006), 0.7),
-        Bridge => (muzzle, 0.7),
-        MuzzleSide => (mean(muzzle, beard), 0.8),
-        WhiskerPad => (muzzle + 0.3 * (beard - muzzle), 0.8),
-        Chin | LowerJaw => (beard, 0.9),
-        Stop | Blaze => (mean(muzzle, head).min(BEFORE_EYES), 0.8),
-        Brow => (brow, 1.1),
-        Orbit => ((0.25 * head).clamp(head.min(0.0025), AROUND_EYES), 0.7),
-        Forehead => (mean(head, topknot), 0.9),
-        Crown => (topknot, 1.0),
-        Temple => (head, 1.0),
-        Cheek => (1.15 * head, 1.0),
-        EarOuter => (ear, 0.8),
-        EarInner => ((0.5 * ear).min(0.008), 0.7),
-        EarEdge => (mean(ear, fringe), 0.7),
-        Throat => (mean(head, neck), 1.0),
-        Nape => (0.8 * neck, 1.0),
-        NeckSide => (neck, 1.1),
-        NeckFront => (1.1 * neck, 1.1),
+/// The numbers of [`Groom`] that go through the tables of the skin, three at a time.
+pub const N_CHANNELS: usize = 5;
+
+impl Groom {
+    /// From what [`groom()`] has made, refined, and where hair lies on the base head.
+    pub fn of_channels([growth, comb, nature, body, age]: [Vec3; N_CHANNELS], rest_flow: Vec3) -> Self {
+        Self {
+            length: growth.x,
+            lift: growth.y,
+            hidden: growth.z,
+            gloss: body.x,
+            comb,
+            density: body.y,
+            curl: nature.x,
+            clump: nature.y,
+            wire: nature.z,
+            undercoat: body.z,
+            grey: age.x,
+            rest_flow,
+        }
     }
 }
 
-/// What is added to the unit direction of hair, +x away from the median plane. Long hair parts in the middle and falls;
-/// beards and brows hang forward.
-fn comb(hair: &Hair, region: Region) -> Vec3 {
+/// How early a region's hair turns grey, 0 to 1: from the chin backwards and around the eyes.
+fn grey(region: Region) -> f32 {
     use Region::*;
-    // How far hair of this length is from lying where it grows.
-    let long = |length: f32, from: f32, to: f32| ((length - from) / (to - from)).clamp(0.0, 1.0);
-    let beard = long(hair.beard, 0.010, 0.040);
-    let brow = long(hair.brow, 0.012, 0.030);
-    let parted = long(hair.topknot, 0.040, 0.090);
-    let bridge = long(hair.muzzle, 0.012, 0.040);
     match region {
-        Bridge | Stop => vec3(1.2, -0.6, 0.3) * bridge,
-        MuzzleSide | WhiskerPad => vec3(0.10, -0.10, 0.0) + vec3(0.3, -1.2, 0.9) * beard,
-        Chin | LowerJaw => vec3(0.0, -0.9, 0.9) * beard,
-        Brow => vec3(0.5, 0.2, 1.9) * brow,
-        Forehead | Blaze | Crown => vec3(1.3, -0.3, 0.2) * parted,
-        Cheek => vec3(0.15, -0.45, 0.0),
-        Temple => vec3(0.15, -0.35, 0.0),
-        Throat | NeckFront | NeckSide => vec3(0.0, -0.30, 0.0),
-        _ => Vec3::ZERO,
+        Chin | UpperLip | LowerLip => 1.0,
+        WhiskerPad | LowerJaw => 0.9,
+        MuzzleSide => 0.75,
+        Bridge | Orbit | Brow => 0.6,
+        Stop | Blaze | Cheek => 0.3,
+        Forehead | Temple | Throat | EarEdge => 0.18,
+        Crown | EarOuter | EarInner | Nape | NeckSide | NeckFront => 0.08,
+        Nose | Nostril | Lid | Mouth => 0.0,
     }
 }
 
-/// Grooms a breed: for every control vertex of the whole mesh (`growths` and `combs`: one each) what
-/// [`Coat`](super::Coat) has for the vertices of the refined skin. Bare regions have length 0, but for their rims. `occlusion`: how deep each
-/// control vertex is hidden, 0 to 1.
-pub fn groom(rig: &Rig, hair: &Hair, occlusion: impl Fn(usize) -> f32, growths: &mut [Vec3], combs: &mut [Vec3]) {
+/// Grooms a breed: `channels` get the numbers of [`Groom::of_channels`] for every control vertex of the whole mesh. Bare
+/// regions have length 0, but for their rims. `occlusion`: how deep each control vertex is hidden, 0 to 1.
+pub fn groom(rig: &Rig, hair: &Hair, occlusion: impl Fn(usize) -> f32, channels: &mut [Vec<Vec3>; N_CHANNELS]) {
+    let tufts = Region::ALL.map(|region| hair.at(region));
     let regions = rig.half().whole_regions();
     let n_half = rig.half().n_half();
     let borders = borders(rig, &regions);
     let border = (BORDER.0 * hair.muzzle).min(BORDER.1);
-    let is_bare = |v: usize| is_bare(regions[v]);
+    let [growths, combs, natures, bodies, ages] = channels;
+    for values in [&mut *growths, &mut *combs, &mut *natures, &mut *bodies, &mut *ages] {
+        values.resize(regions.len(), Vec3::ZERO);
+    }
     for (v, &region) in regions.iter().enumerate() {
-        let (length, stand) = growth(hair, region);
-        let beside_bare = rig.mesh().ring(VertexId(v as u32)).any(|u| is_bare(u.0 as usize));
+        let Tuft { length, stand, curl, clump, lift, wire, gloss, density, undercoat, comb } = tufts[region as usize];
+        let beside_bare = rig.mesh().ring(VertexId(v as u32)).any(|u| regions[u.0 as usize].is_bare());
         let shorter = if beside_bare { BESIDE_BARE } else { 1.0 };
         let (length, stand) = if borders[v] { (border, 0.7) } else { (length * shorter, stand) };
-        growths[v] = vec3(length, stand, occlusion(v));
+        growths[v] = vec3(length, (0.14 + 0.70 * lift) * stand, occlusion(v));
         let side = match v {
             v if v >= n_half => -1.0,
             v if rig.half().midline[v] => 0.0,
             _ => 1.0,
         };
-        combs[v] = comb(hair, region) * vec3(side, 1.0, 1.0);
+        combs[v] = Vec3::from(comb) * vec3(side, 1.0, 1.0);
+        natures[v] = vec3(curl, clump, wire);
+        bodies[v] = vec3(gloss, density, undercoat);
+        ages[v] = vec3(grey(region), 0.0, 0.0);
     }
     for _ in 0..ROUNDS {
-        let before = growths.to_vec();
+        let before = growths.clone();
         for (v, &region) in regions.iter().enumerate() {
             let keeps_its_own =
                 matches!(region, Region::Orbit | Region::UpperLip | Region::LowerLip | Region::EarInner);
-            if keeps_its_own || is_bare(v) {
+            if keeps_its_own || region.is_bare() {
                 continue;
             }
             let (mut sum, mut n) = (before[v].x * 2.0, 2.0);
-            for u in rig.mesh().ring(VertexId(v as u32)).filter(|u| !is_bare(u.0 as usize)) {
+            for u in rig.mesh().ring(VertexId(v as u32)).filter(|u| !regions[u.0 as usize].is_bare()) {
                 sum += before[u.0 as usize].x;
                 n += 1.0;
             }

@@ -5,31 +5,28 @@
 
 mod chart;
 mod colours;
+mod condition;
 mod groom;
 mod markings;
 mod roots;
 
 pub use chart::{Chart, Fibre, Site};
 pub use colours::Colours;
-pub use groom::groom;
+pub use condition::{CLIPPED, Condition, ConditionField};
+pub use groom::{Groom, N_CHANNELS, groom};
 pub use markings::Colouring;
-pub use roots::{MAX_STRANDS, Root, roots};
+pub use roots::{MAX_STRANDS, N_LEADERS, Root, n_rooted, roots};
 
 use crate::anatomy::{Hair, Region};
 use crate::mesh::VertexId;
 use crate::rig::Rig;
 use glam::Vec3;
 
-/// Whether a region bears no hair.
-fn is_bare(region: Region) -> bool {
-    matches!(region, Region::Nose | Region::Nostril | Region::Lid | Region::Mouth)
-}
-
 /// For each control vertex whether it is bare and stands beside one that is not. The nose pad's rim and the fold of the
 /// lids are such: hair comes up to them.
 fn borders(rig: &Rig, regions: &[Region]) -> Vec<bool> {
-    let beside_hair = |v: usize| rig.mesh().ring(VertexId(v as u32)).any(|u| !is_bare(regions[u.0 as usize]));
-    regions.iter().enumerate().map(|(v, &region)| is_bare(region) && beside_hair(v)).collect()
+    let beside_hair = |v: usize| rig.mesh().ring(VertexId(v as u32)).any(|u| !regions[u.0 as usize].is_bare());
+    regions.iter().enumerate().map(|(v, &region)| region.is_bare() && beside_hair(v)).collect()
 }
 
 /// Names of numbers of strands.
@@ -42,11 +39,10 @@ pub struct Coat<'a> {
     pub roots: &'a [Root],
     /// For each root the hair's own colour, linear.
     pub colours: &'a [Vec3],
-    /// For each vertex of the skin: x length of hair, metres, 0 where there is none; y how far it stands off the skin, a
-    /// factor; z how deep the place is hidden, 0 to 1.
-    pub growth: &'a [Vec3],
-    /// For each vertex of the skin what is to be added to the unit direction in which hair lies, head's frame.
-    pub comb: &'a [Vec3],
-    /// What is the same all over the head.
+    /// For each vertex of the skin.
+    pub grooms: &'a [Groom],
+    /// The breed's numbers.
     pub hair: &'a Hair,
+    /// How much it is a puppy's, 0 to 1: short, soft and woolly.
+    pub youth: f32,
 }

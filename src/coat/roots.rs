@@ -38,7 +38,28 @@ pub struct Root {
     pub seed: u32,
     /// Where it stands on the base head, head units: what the noise of locks is bound to.
     pub place: [f32; 3],
+    /// The root, among the first [`N_LEADERS`], towards which its lock runs together; itself where none is near.
+    pub leader: u32,
 }
+
+/// Roots that locks form around: about one in half a centimetre.
+pub const N_LEADERS: usize = 4000;
+/// The farthest that a hair goes to its lock, head units.
+const LOCK_REACH: f32 = 1.0;
+/// The least cosine between the normals of a hair and its leader: the two faces of an ear make no lock.
+const LOCK_TURN: f32 = 0.2;
+
+/// How many roots are made for so many strands: of few, more stand ready for the outline of the picture, where hair shows
+/// most.
+pub const fn n_rooted(n_strands: usize) -> usize {
+    let most = if n_strands < OUTLINE_UP_TO { OUTLINE * n_strands } else { n_strands };
+    if most < OUTLINE_UP_TO || most == n_strands { most } else { OUTLINE_UP_TO }
+}
+
+/// How many times as dense strands stand along the outline where there are few, and the number from which on they are
+/// as dense all over.
+const OUTLINE: usize = 3;
+const OUTLINE_UP_TO: usize = 90_000;
 
 impl Root {
     /// The value at the root from those at the corners of its triangle.
@@ -99,9 +120,78 @@ pub fn roots(rig: &Rig, plan: &Plan, triangles: &[[u32; 3]], is_haired: &[bool],
         let triangle = ends.partition_point(|&end| end <= wanted).min(ends.len() - 1) as u32;
         // Evenly over the triangle: Osada, Funkhouser, Chazelle and Dobkin 2002, "Shape distributions", equation 1.
         let (s, t) = (ops::sqrt(rng.unit_f32()), rng.unit_f32());
-        let mut root = Root { triangle, weights: [s * (1.0 - t), s * t], seed: rng.next_u32(), place: [0.0; 3] };
+        let (weights, seed) = ([s * (1.0 - t), s * t], rng.next_u32());
+        let mut root = Root { triangle, weights, seed, place: [0.0; 3], leader: 0 };
         root.place = root.mixed(triangles[triangle as usize].map(|v| skin[v as usize])).to_array();
         root
     };
-    (0..n.min(MAX_STRANDS)).map(make).collect()
+    let mut roots: Vec<Root> = (0..n.min(MAX_STRANDS)).map(make).collect();
+    let normal = |root: &Root| {
+        let [a, b, c] = triangles[root.triangle as usize].map(|v| skin[v as usize]);
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let normals: Vec<Vec3> = roots.iter().map(normal).collect();
+    let leaders = Leaders::new(&roots[..roots.len().min(N_LEADERS)], &normals);
+    for (i, (root, normal)) in roots.iter_mut().zip(&normals).enumerate() {
+        root.leader = if i < N_LEADERS { i as u32 } else { leaders.nearest(root, *normal).unwrap_or(i as u32) };
+    }
+    roots
+}
+
+/// Leaders by cell of a box around them, so that the nearest is found among few.
+struct Leaders {
+    low: Vec3,
+    n_cells: [usize; 3],
+    /// Where the leaders of each cell begin in `sorted`; one more than there are cells.
+    starts: Vec<u32>,
+    sorted: Vec<(u32, Vec3, Vec3)>,
+}
+
+impl Leaders {
+    fn new(roots: &[Root], normals: &[Vec3]) -> Self {
+        let places = || roots.iter().map(|r| Vec3::from(r.place));
+        let (low, high) = places().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+        let n_cells = (high - low).to_array().map(|side| (side.max(0.0) / LOCK_REACH) as usize + 1);
+        let mut leaders =
+            Self { low, n_cells, starts: vec![0; n_cells.iter().product::<usize>() + 1], sorted: Vec::new() };
+        let mut of_cell: Vec<(usize, u32)> =
+            (0u32..).zip(places()).map(|(i, p)| (leaders.number(leaders.cell(p)), i)).collect();
+        of_cell.sort_unstable();
+        for (cell, i) in of_cell {
+            leaders.starts[cell + 1] += 1;
+            leaders.sorted.push((i, Vec3::from(roots[i as usize].place), normals[i as usize]));
+        }
+        for cell in 1..leaders.starts.len() {
+            leaders.starts[cell] += leaders.starts[cell - 1];
+        }
+        leaders
+    }
+
+    fn cell(&self, place: Vec3) -> [usize; 3] {
+        let cell = ((place - self.low) / LOCK_REACH).to_array();
+        std::array::from_fn(|k| (cell[k].max(0.0) as usize).min(self.n_cells[k] - 1))
+    }
+
+    fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+        (z * self.n_cells[1] + y) * self.n_cells[0] + x
+    }
+
+    /// The nearest leader on the same side of the skin.
+    fn nearest(&self, root: &Root, normal: Vec3) -> Option<u32> {
+        let place = Vec3::from(root.place);
+        let around = |k: usize, at: usize| at.saturating_sub(1)..=(at + 1).min(self.n_cells[k] - 1);
+        let [x, y, z] = self.cell(place);
+        let mut best = (LOCK_REACH * LOCK_REACH, None);
+        for (z, y) in around(2, z).flat_map(|z| around(1, y).map(move |y| (z, y))) {
+            let row = around(0, x);
+            let (first, last) = (self.number([*row.start(), y, z]), self.number([*row.end(), y, z]));
+            for (i, at, n) in &self.sorted[self.starts[first] as usize..self.starts[last + 1] as usize] {
+                let distance = at.distance_squared(place);
+                if distance < best.0 && n.dot(normal) > LOCK_TURN {
+                    best = (distance, Some(*i));
+                }
+            }
+        }
+        best.1
+    }
 }

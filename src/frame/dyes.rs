@@ -29,6 +29,11 @@ impl Dyes {
         *self = Self::default();
     }
 
+    /// The chart of the plan's skin.
+    pub(super) fn chart(&mut self, rig: &Rig, plan: &Plan) -> &Chart {
+        self.chart.get_or_insert_with(|| Chart::new(rig, plan))
+    }
+
     /// Other roots on the same skin.
     pub(super) fn forget_hair(&mut self) {
         self.dyes.clear();

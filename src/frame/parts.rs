@@ -136,13 +136,14 @@ impl<'a> Frame<'a> {
         self.parts.iter().filter(move |part| all || !is_whisker(part))
     }
 
-    /// Points around which a picture is framed, metres: the [body](Frame::body), and about how far its hair reaches.
+    /// Points around which a picture is framed, metres: the [body](Frame::body), and about how far its hair reaches where it
+    /// has some.
     pub fn outline(&self) -> Vec<Vec3> {
         let mut points: Vec<Vec3> = self.body().flat_map(|p| p.positions).copied().collect();
-        if let (Some(coat), Some(skin)) = (&self.coat, self.parts.first()) {
-            for (v, growth) in coat.growth.iter().enumerate() {
+        if let (Some(coat), Some(skin)) = (self.coat.filter(|coat| !coat.roots.is_empty()), self.parts.first()) {
+            for (v, groom) in coat.grooms.iter().enumerate() {
                 let along = skin.flow[v].normalize_or_zero() * 0.3 + skin.normals[v] * 0.5;
-                points.push(skin.positions[v] + along * growth.x);
+                points.push(skin.positions[v] + along * groom.length);
             }
         }
         points

@@ -17,7 +17,7 @@ use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
-use crate::coat::{self, Coat, Root};
+use crate::coat::{self, Coat, Groom, Root};
 use crate::math::fnv::Fnv64;
 use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
@@ -78,6 +78,8 @@ pub struct Pipeline {
     /// The pose of the last frame.
     posed: Pose,
     look: Option<Look>,
+    /// How much the coat of the last frame is a puppy's, 0 to 1.
+    youth: f32,
     revisions: Revisions,
 }
 
@@ -90,10 +92,12 @@ struct HairValues {
     roots: Vec<Root>,
     /// One for each root.
     colours: Vec<Vec3>,
-    control_growth: Vec<Vec3>,
-    control_comb: Vec<Vec3>,
-    growth: Vec<Vec3>,
-    comb: Vec<Vec3>,
+    /// What is groomed at the control vertices.
+    control: [Vec<Vec3>; coat::N_CHANNELS],
+    /// The same at the vertices of the skin.
+    refined: [Vec<Vec3>; coat::N_CHANNELS],
+    /// One for each vertex of the skin.
+    grooms: Vec<Groom>,
 }
 
 impl Pipeline {
@@ -128,6 +132,7 @@ impl Pipeline {
             pose: Pose::default(),
             posed: Pose::default(),
             look: None,
+            youth: 0.0,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
             plan: Arc::new(plan),
             rig,
@@ -234,8 +239,9 @@ impl Pipeline {
         self.layers
     }
 
-    /// How many strands of hair the next frames have, at most [`coat::MAX_STRANDS`]; at first none. They cost nothing a
-    /// frame, but something at each change of the level.
+    /// How many strands of hair the next frames have, at most [`coat::MAX_STRANDS`]; at first none. They have
+    /// [`coat::n_rooted`] roots, of which a picture draws the others along its outline. They cost nothing a frame, but
+    /// something at each change of the level.
     pub fn set_hair(&mut self, n_strands: usize) {
         if n_strands != self.hair.n_strands {
             self.hair.n_strands = n_strands;
@@ -256,7 +262,8 @@ impl Pipeline {
                 .iter()
                 .flat_map(|r| std::iter::repeat_n(r.material == Material::Coat, r.count as usize / 3))
                 .collect();
-            self.hair.roots = coat::roots(&self.rig, &self.plan, triangles, &is_haired, self.hair.n_strands);
+            self.hair.roots =
+                coat::roots(&self.rig, &self.plan, triangles, &is_haired, coat::n_rooted(self.hair.n_strands));
         }
     }
 
@@ -331,9 +338,9 @@ impl Pipeline {
     }
 
     fn coat(&self) -> Option<Coat<'_>> {
-        let HairValues { roots, colours, growth, comb, .. } = &self.hair;
+        let HairValues { roots, colours, grooms, .. } = &self.hair;
         let look = self.look.as_ref().filter(|_| self.layers.skin > 0.0)?;
-        Some(Coat { roots, colours, growth, comb, hair: &look.hair })
+        Some(Coat { roots, colours, grooms, hair: &look.hair, youth: self.youth })
     }
 
     /// The parts of the layers, in the written order.
@@ -359,6 +366,7 @@ impl Pipeline {
             eyeball::place(eye, &mut part.positions, &mut part.normals);
         }
         let (measures, proportions) = (self.rig.measures(values), self.rig.proportions(values));
+        self.youth = self.rig.youth(values);
         let [left, right] = self.pose.lids_closed;
         let alike = left == right;
         self.eyelids.shape(&proportions, &self.deformed.eyes[0], &skin.positions, alike);
@@ -377,28 +385,28 @@ impl Pipeline {
         skin::paint(&self.rig, look, leathers, bare, control_surface);
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_attribute(&self.plan, control_surface, &mut skin.surface);
-        let HairValues { roots, colours: of_hair, control_growth, control_comb, growth, comb, .. } = &mut self.hair;
+        let HairValues { roots, colours: of_hair, control, refined, grooms, .. } = &mut self.hair;
         let hairs = (&roots[..], skin.topology.indices.as_chunks::<3>().0);
         self.dyes.paint(&self.rig, &self.plan, look, hairs, self.threads, &mut skin.colours, of_hair);
         self.whiskers.paint(&skin.colours);
         cap.colours.fill(rim_colour(&self.plan, &skin.colours) * 0.35);
+        for values in &mut *refined {
+            values.resize(self.plan.n_vertices(), Vec3::ZERO);
+        }
         // Two buffers that hold something else from here on.
-        let (refined_leathers, refined_bare) = (&mut *growth, &mut *comb);
+        let [refined_leathers, refined_bare, ..] = &mut *refined;
         for (control, refined) in [(leathers, &mut *refined_leathers), (bare, &mut *refined_bare)] {
-            refined.resize(self.plan.n_vertices(), Vec3::ZERO);
             self.evaluator.evaluate_attribute(&self.plan, control, refined);
         }
         skin::put_leather_on(&mut skin.colours, refined_leathers, refined_bare);
-        for values in [&mut *control_growth, &mut *control_comb] {
-            values.resize(self.rig.mesh().n_vertices(), Vec3::ZERO);
-        }
-        for values in [&mut *growth, &mut *comb] {
-            values.resize(self.plan.n_vertices(), Vec3::ZERO);
-        }
         let surface = &self.control_surface;
-        coat::groom(&self.rig, &look.hair, |v| surface[v].z, control_growth, control_comb);
-        self.evaluator.evaluate_attribute(&self.plan, control_growth, growth);
-        self.evaluator.evaluate_attribute(&self.plan, control_comb, comb);
+        coat::groom(&self.rig, &look.hair, |v| surface[v].z, control);
+        for (control, refined) in control.iter().zip(&mut *refined) {
+            self.evaluator.evaluate_attribute(&self.plan, control, refined);
+        }
+        let flow = self.dyes.chart(&self.rig, &self.plan).flow();
+        grooms.clear();
+        grooms.extend((0..flow.len()).map(|v| Groom::of_channels(refined.each_ref().map(|r| r[v]), flow[v])));
         for eye in [left, right] {
             eyeball::colours(look.iris, &mut eye.colours);
             eye.surface.fill(Vec3::new(0.0, 1.0, 0.0));

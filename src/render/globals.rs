@@ -3,6 +3,8 @@
 use super::camera::Camera;
 use super::lights::{Lamp, Lights};
 use super::preset::Preset;
+use super::strand_pass;
+use crate::coat::Condition;
 use crate::frame::Eyeball;
 use crate::math::ops;
 use glam::{Mat4, Vec3, Vec4};
@@ -26,6 +28,10 @@ pub(super) struct Globals {
     /// How much of the haired skin is covered by strands, 0 to 1; which [`Stuff`](super::preset::Stuff) surfaces are of; exposure; how
     /// dark the head's shadow on the ground is.
     pub(super) coat: Vec4,
+    /// The coat's condition: times its length, part of its hairs that are there, how much it is clipped, how wet it is.
+    pub(super) hair: Vec4,
+    /// How grey it is, how much a puppy's; width of a strand in metres, number of strands.
+    pub(super) age: Vec4,
     key_light: Vec4,
     fill_light: Vec4,
     rim_light: Vec4,
@@ -141,6 +147,8 @@ impl Globals {
                 *exposure,
                 if preset.has_ground() { *contact } else { 0.0 },
             ),
+            hair: Vec4::new(1.0, 1.0, 0.0, 0.0),
+            age: Vec4::ZERO,
             key_light: key_lamp.light.extend(0.0),
             fill_light: fill.light.extend(0.0),
             rim_light: rim.light.extend(0.0),
@@ -152,6 +160,14 @@ impl Globals {
             head_from_clip: clip_from_head.inverse(),
             eyes: Default::default(),
         }
+    }
+
+    /// Takes the hair of a head that is `size` metres large: its condition, how much it is a puppy's, and the number of strands.
+    pub(super) fn set_hair(&mut self, condition: &Condition, youth: f32, size: f32, n_strands: u32) {
+        let Condition { length, density, clipped, wet, grey } = *condition;
+        self.hair = Vec4::new(length, density, clipped, wet);
+        self.age = Vec4::new(grey, youth, strand_pass::width(size, n_strands), n_strands as f32);
+        self.coat.x = strand_pass::cover(n_strands);
     }
 
     /// Takes what is to be known of the eyes: the left one and the right.

@@ -1,5 +1,6 @@
 //! The head on the graphics card: once per topology; values follow the frame's revisions.
 
+use crate::coat::Groom;
 use crate::frame::{Frame, Material, Part, Revisions};
 use glam::Vec3;
 
@@ -11,7 +12,7 @@ pub(super) struct Run {
     pub(super) count: u32,
 }
 
-/// Six vertex buffers in the order of the frame's parts, and one index buffer that counts through all of them.
+/// Seven vertex buffers in the order of the frame's parts, and one index buffer that counts through all of them.
 #[derive(Debug)]
 pub(super) struct HeadBuffers {
     pub(super) positions: wgpu::Buffer,
@@ -20,6 +21,8 @@ pub(super) struct HeadBuffers {
     pub(super) colours: wgpu::Buffer,
     pub(super) surface: wgpu::Buffer,
     pub(super) rest: wgpu::Buffer,
+    /// One [`Groom`] each; of parts that bear no hair nothing but zeros.
+    pub(super) grooms: wgpu::Buffer,
     pub(super) indices: wgpu::Buffer,
     pub(super) runs: Vec<Run>,
     /// Of the last frame; none before the first.
@@ -53,6 +56,7 @@ impl HeadBuffers {
             colours: values("colours"),
             surface: values("surface"),
             rest: values("rest"),
+            grooms: buffer(device, "grooms", n_vertices * size_of::<Groom>(), wgpu::BufferUsages::VERTEX | storage),
             indices: buffer(device, "indices", n_indices * size_of::<u32>(), wgpu::BufferUsages::INDEX | storage),
             runs: Vec::new(),
             revisions: None,
@@ -85,6 +89,9 @@ impl HeadBuffers {
         if old.is_none_or(|old| old.look != new.look) {
             write_parts(queue, &self.colours, frame, 0, |p| p.colours);
             write_parts(queue, &self.surface, frame, 0, |p| p.surface);
+            if let Some(coat) = frame.coat {
+                queue.write_buffer(&self.grooms, 0, bytemuck::cast_slice(coat.grooms));
+            }
         }
         self.revisions = Some(new);
         self.skin = skin;

@@ -4,6 +4,7 @@ use super::head_buffers::HeadBuffers;
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
 use super::targets::{COLOUR, depth, samples};
 use super::{noise, shadow_pass::ShadowPass};
+use crate::coat::Groom;
 use crate::frame::Material;
 use std::sync::OnceLock;
 
@@ -18,7 +19,7 @@ pub enum Quality {
     /// Everything.
     #[default]
     Full,
-    /// No streaks in the coat and hard shadows: for a window drawn by a software driver.
+    /// Haired skin shaded at its vertices, hard shadows: for a window drawn by a software driver.
     Draft,
 }
 
@@ -136,7 +137,8 @@ impl MeshPass {
         clear_skin: bool,
     ) {
         pass.set_bind_group(1, &self.bindings, &[]);
-        let values = [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface, &head.rest];
+        let values =
+            [&head.positions, &head.normals, &head.flow, &head.colours, &head.surface, &head.rest, &head.grooms];
         for (slot, buffer) in (0..).zip(values) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
@@ -174,16 +176,19 @@ fn pipeline(
         wgpu::vertex_attr_array![4 => Float32x3],
         wgpu::vertex_attr_array![5 => Float32x3],
     ];
-    let buffers = attributes.each_ref().map(|attributes| {
-        Some(wgpu::VertexBufferLayout { array_stride: 12, step_mode: wgpu::VertexStepMode::Vertex, attributes })
-    });
+    let of_groom = wgpu::vertex_attr_array![6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x4];
+    let layout_of = |array_stride, attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    };
+    let mut buffers: Vec<_> = attributes.iter().map(|attributes| layout_of(12, attributes)).collect();
+    buffers.push(layout_of(size_of::<Groom>() as u64, &of_groom));
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("mesh"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
             buffers: &buffers,
         },
         // Both sides: one looks into nostrils and into an open mouth. Of what is seen through, the near side.

@@ -2,7 +2,7 @@
 
 use super::gpu::Gpu;
 use super::mesh_pass::Quality;
-use super::painter::{Drawing, Painter};
+use super::painter::{Drawing, Painter, Stage};
 use super::picture::Picture;
 use super::samples::Samples;
 use super::shader_source::{ShaderError, ShaderSources};
@@ -76,6 +76,27 @@ impl Offscreen {
     /// Bytes uploaded for hair so far.
     pub fn hair_bytes(&self) -> u64 {
         self.painter.hair_bytes()
+    }
+
+    /// Compiles the built-in shaders on the device, at another quality than the best.
+    pub fn with_quality(gpu: Gpu, quality: Quality) -> Result<Self, ShaderError> {
+        let painter = Painter::new(&gpu.device, &gpu.queue, &ShaderSources::default(), quality)?;
+        Ok(Self { gpu, painter, targets: None })
+    }
+
+    /// Draws a picture up to a stage, as a window draws it, and waits until it is done: for who measures what that takes.
+    /// `size`: pixels, each at least 1 and at most the device's limit.
+    pub fn run(&mut self, until: Stage, frame: &Frame<'_>, drawing: &Drawing, size: [u32; 2]) -> Result<(), DrawError> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let targets = match &mut self.targets {
+            Some(targets) if targets.size == size => targets,
+            other => other.insert(Targets::new(device, size)),
+        };
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.painter.draw_until(until, device, queue, &mut encoder, targets, frame, drawing);
+        queue.submit([encoder.finish()]);
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| DrawError::ReadBack(e.to_string()))?;
+        Ok(())
     }
 
     /// Draws one frame of a head. `size`: width and height, pixels.

@@ -9,13 +9,16 @@ use super::preset::Preset;
 use super::samples::Samples;
 use super::shader_source::{ShaderError, ShaderSources};
 use super::shadow_pass::{self, ShadowPass};
-use super::strand_pass::{self, StrandPass};
+use super::strand_pass::StrandPass;
 use super::subdivide_pass::{PlanBuffers, SubdividePass};
 use super::targets::Targets;
 use super::wire_pass::{Lines, WirePass};
-use crate::anatomy::Hair;
+use crate::coat::Condition;
 use crate::frame::Frame;
 use glam::Vec3;
+
+/// How much longer than its place says a single hair may be.
+const LONGEST: f32 = 1.25;
 
 /// What is shown of a head.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +54,8 @@ pub struct Drawing {
     pub skin_opacity: f32,
     /// How many strands of hair at most, of those that the frame has; none where the skin is seen through.
     pub n_strands: u32,
+    /// What the coat is like today.
+    pub condition: Condition,
     /// Of each pixel, where the picture is drawn [offscreen](super::Offscreen); a window takes the fewest.
     pub samples: Samples,
     /// Pixels per unit of line width: 1, or the window's scale factor.
@@ -69,8 +74,40 @@ impl Drawing {
             on_card: false,
             skin_opacity: 1.0,
             n_strands: 0,
+            condition: Condition::default(),
             samples: Samples::default(),
             pixels_per_point: 1.0,
+        }
+    }
+}
+
+/// What of a picture is drawn, in the order in which it is: each with all before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Nothing but uploads, and a picture that is cleared.
+    Cleared,
+    /// The maps of the lights' shadows.
+    Shadows,
+    /// What stands behind the head.
+    Ground,
+    /// Strands of hair.
+    Strands,
+    /// Surfaces, and lines over them: the whole picture.
+    Surfaces,
+}
+
+impl Stage {
+    /// Every stage in its order.
+    pub const ALL: [Self; 5] = [Self::Cleared, Self::Shadows, Self::Ground, Self::Strands, Self::Surfaces];
+
+    /// What it adds to the one before.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cleared => "upload and clear",
+            Self::Shadows => "shadow maps",
+            Self::Ground => "ground",
+            Self::Strands => "strands",
+            Self::Surfaces => "surfaces",
         }
     }
 }
@@ -114,7 +151,7 @@ impl Passes {
             ground: GroundPass::new(device, sources, globals, &mesh.layout)?,
             mesh,
             wire: WirePass::new(device, sources, globals)?,
-            strand: StrandPass::new_if_able(device, queue, sources, globals)?,
+            strand: StrandPass::new_if_able(device, queue, sources, globals, quality)?,
             shadow,
         })
     }
@@ -191,6 +228,21 @@ impl Painter {
         frame: &Frame<'_>,
         drawing: &Drawing,
     ) {
+        self.draw_until(Stage::Surfaces, device, queue, encoder, targets, frame, drawing);
+    }
+
+    /// The same, up to a stage of the picture: for who measures what each costs.
+    #[expect(clippy::too_many_arguments, reason = "those of a whole picture, and how far")]
+    pub fn draw_until(
+        &mut self,
+        until: Stage,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &Frame<'_>,
+        drawing: &Drawing,
+    ) {
         let plan = frame.plan.filter(|plan| drawing.on_card && SubdividePass::takes(device, plan));
         let pass = self.subdivide.as_ref().zip(plan);
         if !self.head.as_ref().is_some_and(|head| head.fits(frame)) {
@@ -222,9 +274,8 @@ impl Painter {
         let clear_skin = drawing.skin_opacity < 1.0;
         let coat = frame.coat.filter(|c| drawing.n_strands.min(c.roots.len() as u32) > 0 && !clear_skin);
         let hair = self.passes.strand.as_mut().zip(coat).map(|(pass, coat)| {
-            let size = 2.0 * extent.radius;
-            pass.load(device, queue, &coat, frame.revisions, size, drawing.n_strands, head, &self.passes.mesh);
-            extent.margin = longest(coat.hair);
+            pass.load(device, queue, &coat, frame.revisions, drawing.n_strands, head, &self.passes.mesh);
+            extent.margin = LONGEST * coat.hair.longest() * drawing.condition.length;
             &*pass
         });
         let mut globals = Globals::new(
@@ -238,16 +289,25 @@ impl Painter {
             drawing.preset,
         );
         globals.set_eyes(frame.eyes);
-        globals.coat.x = hair.map_or(0.0, |_| strand_pass::cover(drawing.n_strands));
+        let youth = frame.coat.map_or(0.0, |coat| coat.youth);
+        let n_strands = if hair.is_some() { drawing.n_strands } else { 0 };
+        globals.set_hair(&drawing.condition, youth, 2.0 * extent.radius, n_strands);
         queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
 
-        self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin);
+        if until >= Stage::Shadows {
+            self.passes.shadow.draw(encoder, &self.globals_bindings, head, clear_skin, self.quality);
+        }
         let mut pass = targets.begin(encoder);
         pass.set_bind_group(0, &self.globals_bindings, &[]);
-        self.passes.ground.draw(&mut pass, &self.passes.mesh.bindings);
+        if until >= Stage::Ground {
+            self.passes.ground.draw(&mut pass, &self.passes.mesh.bindings);
+        }
         // Hair first: what it hides of the skin, which is dearer, is not shaded.
-        if let Some(hair) = hair {
+        if let Some(hair) = hair.filter(|_| until >= Stage::Strands) {
             hair.draw(&mut pass);
+        }
+        if until < Stage::Surfaces {
+            return;
         }
         self.passes.mesh.draw(device, &mut pass, head, clear_skin);
         if lines.is_some() {
@@ -261,10 +321,4 @@ fn below(frame: &Frame<'_>, camera: &Camera, centre: Vec3) -> f32 {
     let up = camera.world_from_head().transpose() * Vec3::Y;
     let points = frame.body().flat_map(|part| part.positions);
     points.map(|&p| up.dot(centre - p)).fold(0.0, f32::max)
-}
-
-/// The longest hair of a head, metres.
-fn longest(hair: &Hair) -> f32 {
-    let lengths = [hair.muzzle, hair.head, hair.topknot, hair.neck, hair.ear, hair.fringe, hair.beard, hair.brow];
-    1.25 * lengths.into_iter().fold(0.0, f32::max)
 }

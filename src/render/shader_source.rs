@@ -10,6 +10,8 @@ pub enum ShaderFile {
     Globals,
     /// Light and film, which all lit surfaces share.
     Light,
+    /// Hair as it is today and the light it sends back, which strands and streaked skin share.
+    Hair,
     /// The head's surfaces.
     Mesh,
     /// Lines over the head.
@@ -40,9 +42,10 @@ pub struct ShaderError {
 
 impl ShaderFile {
     /// Every file.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Globals,
         Self::Light,
+        Self::Hair,
         Self::Mesh,
         Self::Wire,
         Self::Background,
@@ -56,6 +59,7 @@ impl ShaderFile {
         match self {
             Self::Globals => "globals.wgsl",
             Self::Light => "light.wgsl",
+            Self::Hair => "hair.wgsl",
             Self::Mesh => "mesh.wgsl",
             Self::Wire => "wire.wgsl",
             Self::Background => "background.wgsl",
@@ -72,6 +76,11 @@ impl ShaderFile {
 
     /// Whether light and film belong to it.
     fn reads_light(self) -> bool {
+        self.reads_hair() || self == Self::Hair
+    }
+
+    /// Whether hair belongs to it.
+    fn reads_hair(self) -> bool {
         matches!(self, Self::Mesh | Self::Strand)
     }
 }
@@ -88,6 +97,7 @@ impl Default for ShaderSources {
         let texts = [
             include_str!("../../shaders/globals.wgsl"),
             include_str!("../../shaders/light.wgsl"),
+            include_str!("../../shaders/hair.wgsl"),
             include_str!("../../shaders/mesh.wgsl"),
             include_str!("../../shaders/wire.wgsl"),
             include_str!("../../shaders/background.wgsl"),
@@ -112,9 +122,10 @@ impl ShaderSources {
 
     /// A file as it is compiled: what it shares with others comes behind it, so that its own lines keep their numbers.
     fn composed(&self, file: ShaderFile) -> String {
+        let hair = file.reads_hair().then_some(ShaderFile::Hair);
         let light = file.reads_light().then_some(ShaderFile::Light);
         let globals = file.reads_globals().then_some(ShaderFile::Globals);
-        let files = [Some(file), light, globals].into_iter().flatten();
+        let files = [Some(file), hair, light, globals].into_iter().flatten();
         files.map(|f| self.text(f)).collect::<Vec<_>>().join("\n")
     }
 
@@ -125,6 +136,9 @@ impl ShaderSources {
         }
         if file.reads_light() {
             self.check(ShaderFile::Light)?;
+        }
+        if file.reads_hair() {
+            self.check(ShaderFile::Hair)?;
         }
         let source = &self.composed(file);
         // Something left open at the end is noticed in what comes behind it, which is right.

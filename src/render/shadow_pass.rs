@@ -1,7 +1,7 @@
 //! Depth of the head seen from the key light and from the rim light.
 
 use super::head_buffers::HeadBuffers;
-use super::mesh_pass::is_skin;
+use super::mesh_pass::{Quality, is_skin};
 use super::shader_source::{ShaderError, ShaderFile, ShaderSources, build_checked};
 use super::targets::DEPTH;
 
@@ -34,15 +34,17 @@ impl ShadowPass {
         Ok(Self { pipelines, maps: TEXELS.map(|side| map(device, side)) })
     }
 
-    /// Fills the maps.
+    /// Fills the maps; in a draft the rim light's has nothing in it.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         globals: &wgpu::BindGroup,
         head: &HeadBuffers,
         clear_skin: bool,
+        quality: Quality,
     ) {
-        for (map, pipeline) in self.maps.iter().zip(&self.pipelines) {
+        let is_filled = [true, quality == Quality::Full];
+        for ((map, pipeline), is_filled) in self.maps.iter().zip(&self.pipelines).zip(is_filled) {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("shadow"),
                 depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -52,6 +54,9 @@ impl ShadowPass {
                 }),
                 ..Default::default()
             });
+            if !is_filled {
+                continue;
+            }
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, globals, &[]);
             pass.set_vertex_buffer(0, head.positions.slice(..));

@@ -12,6 +12,7 @@ use super::picture::Picture;
 use super::preset::Preset;
 use super::samples::Samples;
 use super::text;
+use crate::coat::Condition;
 use crate::frame::{Frame, Material};
 
 /// Part of a cell left free around the head.
@@ -68,6 +69,8 @@ pub struct Sheet {
     pub shading: Shading,
     /// Strands of hair on a head at most: none unless it is set.
     pub n_strands: u32,
+    /// What coats are like today: dry unless it is set.
+    pub condition: Condition,
     /// In which light, and as what: in the studio unless it is set.
     pub preset: Preset,
     /// Of each pixel: sixteen unless they are set.
@@ -101,6 +104,7 @@ impl Sheet {
             skin_opacity: 1.0,
             shading: Shading::Shaded,
             n_strands: 0,
+            condition: Condition::default(),
             preset: Preset::default(),
             samples: Samples::default(),
             dresses: Vec::new(),
@@ -138,9 +142,17 @@ impl Sheet {
             if !self.fit {
                 camera.distance = camera.distance.max(self.distance);
             }
-            let Self { background, skin_opacity, shading, n_strands, preset, samples, .. } = *self;
-            let drawing =
-                Drawing { background, skin_opacity, shading, n_strands, preset, samples, ..Drawing::new(camera) };
+            let Self { background, skin_opacity, shading, n_strands, condition, preset, samples, .. } = *self;
+            let drawing = Drawing {
+                background,
+                skin_opacity,
+                shading,
+                n_strands,
+                condition,
+                preset,
+                samples,
+                ..Drawing::new(camera)
+            };
             if self.dresses.is_empty() {
                 cells.push(offscreen.draw(frame, &drawing, self.cell)?);
             }

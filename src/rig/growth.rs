@@ -37,6 +37,12 @@ pub(super) fn grown(adult: &Measures) -> Measures {
     m
 }
 
+/// How much of a puppy's coat a dog has at an age in weeks, 0 to 1: all of it up to eight weeks, none from ten months on, when
+/// it has been shed. Estimated.
+pub(super) fn youth(age: f32) -> f32 {
+    ((43.0 - age) / (43.0 - 8.0)).clamp(0.0, 1.0)
+}
+
 fn age(m: &mut Measures) {
     let part = (m.age / GROWN).max(0.02);
     let by = |exponent: f32| ops::powf(part, exponent);

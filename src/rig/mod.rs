@@ -174,6 +174,11 @@ impl Rig {
         growth::grown(&Measures::from_values(values, &self.columns))
     }
 
+    /// How much of a puppy's coat a breed has at its age, 0 to 1.
+    pub fn youth(&self, values: &[f32]) -> f32 {
+        growth::youth(Measures::from_values(values, &self.columns).age)
+    }
+
     /// A head's proportions from a breed's values (SI, one per row of the table the rig was made for).
     pub fn proportions(&self, values: &[f32]) -> Proportions {
         Proportions::new(&self.measures(values))

@@ -2,6 +2,7 @@
 
 pub mod anatomy;
 pub mod breed;
+mod coat;
 pub mod files;
 mod keys;
 pub mod measures;
@@ -34,6 +35,7 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
         files::ui(state, ui);
         ui.separator();
         breed::ui(state, ui);
+        coat::ui(state, ui);
         ui.separator();
         anatomy::ui(state, ui);
     });

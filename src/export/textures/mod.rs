@@ -71,8 +71,13 @@ impl Textures {
         }
         let tangents = tangents::tangents(skin, uv);
         let hair = skin::Hair {
-            lengths: coat.growth.iter().map(|growth| growth.x).collect(),
-            directions: skin.flow.iter().zip(coat.comb).map(|(flow, &comb)| flow.normalize_or_zero() + comb).collect(),
+            lengths: coat.grooms.iter().map(|groom| groom.length).collect(),
+            directions: skin
+                .flow
+                .iter()
+                .zip(coat.grooms)
+                .map(|(flow, groom)| flow.normalize_or_zero() + groom.comb)
+                .collect(),
             curl: coat.hair.curl,
         };
         let painter = skin::Painter::new(skin, uv, hair, canvas, &tangents, size);
