@@ -6,7 +6,7 @@ mod settings;
 
 use glam::Vec3;
 use londra::anatomy::{Breed, Region};
-use londra::coat::{Chart, Root};
+use londra::coat::{Chart, Root, n_rooted};
 use londra::frame::{Frame, Pipeline};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -80,7 +80,7 @@ impl<'a> Finder<'a> {
         let site = level.chart.root(root, &level.triangles);
         let key = [site.place.x, site.place.y, site.place.z, 3.0 * site.ear.z];
         let mut best = Place { triangle: 0, weights: Vec3::X, distance: f32::INFINITY };
-        for near in self.vertices.nearest_neighbor_iter(key).take(4) {
+        for near in self.vertices.nearest_neighbor_iter(key).take(16) {
             for &t in &self.around[near.data as usize] {
                 let corners = self.level.triangles[t as usize].map(|v| self.level.chart.vertex(v as usize).place);
                 let weights = nearest(corners, site.place);
@@ -144,7 +144,7 @@ fn a_root_stands_elsewhere_on_another_head_or_level() {
     let mut levels = LEVELS.map(|level| Level::new(&world, level));
     let all: Vec<Vec<Root>> = levels.iter().map(|level| roots(&level.pipeline.frame())).collect();
     for (level, roots) in levels.iter().zip(&all) {
-        assert_eq!(roots.len(), N);
+        assert_eq!(roots.len(), n_rooted(N));
         for root in roots {
             // What the noise of locks is bound to is where markings find it.
             let site = level.chart.root(root, &level.triangles);
