@@ -185,7 +185,8 @@ fn a_root_stands_elsewhere_on_another_head_or_level() {
                 at.distance(on_finest(&skin, place)) / size
             });
             let off: Vec<f32> = off.collect();
-            let (found, farthest) = (off.iter().sum::<f32>() / off.len() as f32, off.iter().copied().fold(0.0, f32::max));
+            let (found, farthest) =
+                (off.iter().sum::<f32>() / off.len() as f32, off.iter().copied().fold(0.0, f32::max));
             let name = level.pipeline.level();
             assert!(found < mean && farthest < most, "{}, level {name}: {found} off, {farthest} at most", head.id);
         }
