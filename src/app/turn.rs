@@ -29,9 +29,9 @@ pub(super) enum TurnError {
 
 /// Strands of hair on a window's head at first, where a graphics card draws it and where a processor does.
 const HAIR: u32 = 90_000;
-const HAIR_BY_SOFTWARE: u32 = 2000;
+const HAIR_BY_SOFTWARE: u32 = 1000;
 /// How finely a head is made at first where a processor draws.
-const LEVEL_BY_SOFTWARE: u32 = 3;
+const LEVEL_BY_SOFTWARE: u32 = 2;
 
 /// What a window shows and what draws it; as long as the device.
 pub(super) struct Turn {

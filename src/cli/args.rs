@@ -181,7 +181,7 @@ pub(super) struct Scene {
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct Fur {
     /// Strands of hair: off, low (10000), medium (90000), high (250000), or a number up to 500000; without it, medium for
-    /// one head, low for a sheet, 2000 for a window that a processor draws, off for an atlas, below lines and where the preset
+    /// one head, low for a sheet, 1000 for a window that a processor draws, off for an atlas, below lines and where the preset
     /// has none
     #[arg(long, value_name = "off|low|medium|high|N", value_parser = values::hair)]
     pub hair: Option<u32>,
