@@ -24,6 +24,7 @@ const LEAP_RATIO: f32 = 0.9;
 /// Longest leap, head units.
 const LEAP: f32 = 1.5;
 
+/// How far the skin around the base of an ear stays from it, as a part of the base's length.
 const KEEP_EAR: f32 = 0.1;
 
 /// A constant linear map from the displacements of the held vertices to those of the free ones.
