@@ -20,6 +20,8 @@ pub mod frame;
 #[cfg(feature = "head")]
 pub mod measure;
 #[cfg(feature = "head")]
+pub mod motion;
+#[cfg(feature = "head")]
 pub mod rig;
 
 #[cfg(feature = "graphics")]

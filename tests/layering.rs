@@ -6,26 +6,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each module, and the modules it may use beside itself.
-const ARROWS: [(&str, &[&str]); 14] = [
+const ARROWS: [(&str, &[&str]); 15] = [
     ("math", &[]),
     ("mesh", &["math"]),
     ("subdiv", &["mesh", "math"]),
     ("anatomy", &["math"]),
     ("io", &["mesh", "math"]),
-    ("rig", &["mesh", "anatomy", "math"]),
+    ("motion", &["anatomy", "math"]),
+    ("rig", &["mesh", "motion", "anatomy", "math"]),
     ("coat", &["rig", "subdiv", "anatomy", "mesh", "math"]),
-    ("frame", &["coat", "rig", "subdiv", "anatomy", "mesh", "math"]),
+    ("frame", &["coat", "rig", "subdiv", "motion", "anatomy", "mesh", "math"]),
     ("author", &["rig", "anatomy", "subdiv", "mesh", "math"]),
-    ("measure", &["frame", "rig", "subdiv", "anatomy", "mesh", "math"]),
-    ("export", &["frame", "rig", "subdiv", "anatomy", "mesh", "math"]),
+    ("measure", &["frame", "rig", "subdiv", "motion", "anatomy", "mesh", "math"]),
+    ("export", &["frame", "rig", "subdiv", "motion", "anatomy", "mesh", "math"]),
     ("render", &["frame", "coat", "subdiv", "anatomy", "math"]),
     ("app", &EVERYTHING),
     ("cli", &EVERYTHING),
 ];
 
-const EVERYTHING: [&str; 14] = [
-    "math", "mesh", "subdiv", "anatomy", "io", "rig", "coat", "frame", "author", "measure", "export", "render", "app",
-    "cli",
+const EVERYTHING: [&str; 15] = [
+    "math", "mesh", "subdiv", "anatomy", "io", "motion", "rig", "coat", "frame", "author", "measure", "export",
+    "render", "app", "cli",
 ];
 
 /// Words, the modules that may say them, and why no other.
@@ -47,7 +48,8 @@ const WORDS: [(&[&str], &[&str], &str); 6] = [
 ];
 
 /// Layers whose numbers are hashed.
-const HASHED: [&str; 10] = ["math", "mesh", "subdiv", "anatomy", "io", "rig", "coat", "frame", "author", "export"];
+const HASHED: [&str; 11] =
+    ["math", "mesh", "subdiv", "anatomy", "io", "motion", "rig", "coat", "frame", "author", "export"];
 
 /// Methods of the standard library whose last bits differ between machines, or that fuse two roundings into one.
 const UNPORTABLE: [&str; 18] = [
