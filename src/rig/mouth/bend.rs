@@ -1,5 +1,5 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
-//! the mouth grows longer and thinner, since a tongue keeps its volume (Kier and Smith 1985).
+//! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
 use super::MouthOfHead;
 use super::tongue::{AROUND, SECTIONS};
@@ -49,7 +49,8 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
     let stretch = |s: f32| (1.0 + far * unit / freely * free(s)).max(0.3);
     // Where the incisors are on the way, which is as long as the tongue at rest.
     let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
-    let from = if lift > 0.0 { 0.8 * from } else { from };
+    // Up it goes before the upper lip, down over the lower one.
+    let from = if lift > 0.0 { length + BEND[0] * unit } else { from };
     let is_out = smooth(0.0, 12.0, far);
     let front = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
     let (mut at, mut way) = (middle(0), 0.0);
@@ -66,7 +67,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
         way += step.length();
         let turn = turn(s, way);
         let wider = 1.0 + WIDER * wide * free(s);
-        let (x, y) = (wider * ops::powf(thick, -0.25), ops::powf(thick, -0.5) / ops::sqrt(wider));
+        let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.25) / ops::sqrt(wider));
         // It lies on the incisors where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
         let lies = (front.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);

@@ -10,7 +10,7 @@ use crate::rig::handles::{Handles, NONE};
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the corner of the mouth goes, as a part of the mandible's turn: nearer to the upper lip, which is longer there.
-const CORNER: f32 = 0.42;
+const CORNER: f32 = 0.34;
 const ROUNDS: usize = 400;
 
 /// Weight of the mandible's turn for each vertex of the whole mesh; `images`: of the half's vertices.
@@ -31,17 +31,10 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
         }
     }
     for i in 3..17 {
-        for j in 9..15 {
-            let lip = (9..11).contains(&j);
-            let bone = i < 9 || (i < 13 && !lip && j > 11) || (i < 11 && j == 11);
-            let held = match i {
-                // The upper lip's corner is set below.
-                10.. if j == 9 => continue,
-                ..9 => Some(1.0),
-                _ if bone => Some(1.0),
-                _ => None,
-            };
-            set(h.l[i][j], held);
+        // From ring 10 on column 9 is the cheek's.
+        for j in if i < 10 { 9 } else { 10 }..15 {
+            let on_bone = i < 9 || (i < 13 && j > 11) || (i < 11 && j == 11);
+            set(h.l[i][j], on_bone.then_some(1.0));
         }
     }
     for i in 3..11 {

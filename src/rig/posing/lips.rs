@@ -30,15 +30,16 @@ impl Lips {
             for i in 3..11 {
                 // It tapers to the corner of the mouth.
                 let taper = smoothstep(10.5, 7.0, i as f32);
-                let mut add = |v: u16, part: f32| {
-                    let w = fade(ways[usize::from(v)], REACH) * taper * part;
+                let mut add = |v: u16, weight: f32| {
+                    let w = weight * taper;
                     if v != NONE && w > 0.0 && !out.iter().any(|(o, _)| *o == u32::from(v)) {
                         out.push((u32::from(v), w));
                     }
                 };
-                (5..15).flat_map(|j| own(i, j)).filter(|&v| v != NONE).for_each(|v| add(v, 1.0));
-                add(lining[i][1], 0.9);
-                add(lining[i][2], 0.25);
+                (5..15).flat_map(|j| own(i, j)).filter(|&v| v != NONE).for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
+                // The lining goes with the margin, so that it never hangs below it.
+                add(lining[i][1], 1.0);
+                add(lining[i][2], 0.9);
             }
             out
         };

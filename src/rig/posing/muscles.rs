@@ -17,6 +17,8 @@ const BASE_MM: f32 = 0.1;
 const SHARED: f32 = 0.8;
 /// How high skin stands up that is pressed together to nothing, millimetres.
 const THROWN_UP: f32 = 9.0;
+/// Part of a pull into the head that the tissue below takes back.
+const INWARDS: f32 = 0.9;
 /// Weakest pull that counts.
 const LEAST: f32 = 0.004;
 
@@ -88,18 +90,22 @@ impl MusclePlan {
         };
         let faces = half.triangles();
         let mut regions = half.whole_regions();
-        // The lining is free at the lip and grown to the gum.
-        let lining: Vec<f32> = (0..base.len())
-            .map(|v| {
-                let own = if v < half.n_half() { v } else { mirror[v] as usize };
-                match half.tags[own].split('.').collect::<Vec<_>>()[..] {
-                    ["mu" | "ml", _, "1"] => 0.9,
-                    ["mu" | "ml", _, "2"] => 0.3,
-                    ["mu" | "ml", ..] => 0.0,
-                    _ => 1.0,
-                }
-            })
-            .collect();
+        // The lining goes with the margin of its lip, so that it never hangs below it, and is grown to the gum behind.
+        let margin = |v: usize| -> Option<(usize, f32)> {
+            let own = if v < half.n_half() { v } else { mirror[v] as usize };
+            let (lip, part) = match half.tags[own].split('.').collect::<Vec<_>>()[..] {
+                ["mu", row, "1"] => (format!("s.{row}.9"), 1.0),
+                ["mu", row, "2"] => (format!("s.{row}.9"), 0.9),
+                ["ml", row, "1"] => (format!("l.{row}.9"), 1.0),
+                ["ml", row, "2"] => (format!("l.{row}.9"), 0.9),
+                ["mu" | "ml", ..] => return Some((v, 0.0)),
+                _ => return None,
+            };
+            let lip = if lip == "l.10.9" { "s.10.9" } else { &lip };
+            let lip = half.tags.iter().position(|t| t == lip)?;
+            Some((if v < half.n_half() { lip } else { mirror[lip] as usize }, part))
+        };
+        let margins: Vec<(usize, f32)> = (0..base.len()).map(|v| margin(v).unwrap_or((v, 1.0))).collect();
         regions.resize(base.len(), Region::Cheek);
         let bound = table.muscles.iter().map(|m| {
             let path = m.path.iter().map(|a| a.iter().map(spot).collect()).collect::<Result<Vec<Vec<Spot>>, _>>()?;
@@ -123,8 +129,9 @@ impl MusclePlan {
             let (mut vertices, mut weights) = (Vec::new(), Vec::new());
             for v in 0..base.len() {
                 let own_side = smoothstep(-SHARED, SHARED, base[v].x);
-                let free = looseness(regions[v]) * lining[v] * own_side;
-                let of_zones: Vec<f32> = ways.iter().map(|way| fade(way[v], reach) * free).collect();
+                let (from, part) = margins[v];
+                let free = looseness(regions[from]) * part * own_side;
+                let of_zones: Vec<f32> = ways.iter().map(|way| fade(way[from], reach) * free).collect();
                 if of_zones.iter().any(|&w| w > LEAST) {
                     vertices.push(v as u32);
                     weights.extend(of_zones);
@@ -184,7 +191,11 @@ impl MusclePlan {
                         sum += w;
                         most = most.max(w);
                     }
-                    out.entries.push((v, way * (most / sum.max(1e-6) * pull)));
+                    // Skin slides over what lies under it, and does not go into it.
+                    let way = way * (most / sum.max(1e-6));
+                    let n = normals[v as usize];
+                    let way = way - n * (INWARDS * way.dot(n).min(0.0));
+                    out.entries.push((v, way * pull));
                 }
                 if m.gather > 0.0 {
                     for &(v, d) in &out.entries[start..] {
