@@ -7,7 +7,7 @@ use crate::anatomy::Breed;
 use crate::frame::{Frame, Layers, Pipeline};
 use crate::measure::{Landmark, Side, skin_landmarks};
 use crate::render::{Background, Camera, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
-use crate::rig::Pose;
+use crate::motion::{Channel, Pose};
 use glam::Vec3;
 use serde_json::json;
 
@@ -48,7 +48,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
 pub(super) fn prepared(pipeline: &mut Pipeline, scene: &Scene) -> Result<(), Failure> {
     pipeline.set_layers(layers(scene)).map_err(Failure::work)?;
     pipeline.set_hair(hair(scene, HAIR) as usize);
-    pipeline.set_pose(Pose { lids_closed: scene.lids_closed.0 });
+    pipeline.set_pose(Pose::default().with_sides(Channel::LidClosed, scene.lids_closed.0));
     Ok(())
 }
 
@@ -87,7 +87,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     let presets = if args.presets.is_empty() { vec![args.scene.preset] } else { args.presets.clone() };
-    pipeline.set_pose(Pose { lids_closed: args.scene.lids_closed.0 });
+    pipeline.set_pose(Pose::default().with_sides(Channel::LidClosed, args.scene.lids_closed.0));
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {

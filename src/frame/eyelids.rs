@@ -6,7 +6,7 @@ use super::values::Values;
 use crate::anatomy::Look;
 use crate::mesh::DedgeMesh;
 use crate::rig::eyelids::{self, tear_line_mesh, third_eyelid_mesh};
-use crate::rig::{ControlError, Eye, Proportions, Rig};
+use crate::rig::{ControlError, Eye, Proportions, Rig, Rigid};
 use crate::subdiv::{Evaluator, Plan, Scheme};
 use glam::{Vec3, vec3};
 
@@ -43,23 +43,46 @@ impl EyelidParts {
         Ok(Self { evaluator: Evaluator::new(&third.plan), margins, control: Vec::new(), third, tears })
     }
 
-    /// `eye`: the left one; `skin`: positions of the refined skin; `alike`: whether both eyes are closed as far.
-    pub(super) fn shape(&mut self, proportions: &Proportions, eye: &Eye, skin: &[Vec3], alike: bool) {
+    /// `eyes`: left and right, where they are; `skin`: positions of the refined skin; `head`: where the skull is; `alike`:
+    /// whether both sides are mirror images.
+    pub(super) fn shape(
+        &mut self,
+        proportions: &Proportions,
+        eyes: &[Eye; 2],
+        skin: &[Vec3],
+        head: &Rigid,
+        alike: bool,
+    ) {
         let Self { evaluator, margins, control, third, tears } = self;
-        eyelids::third_eyelid(proportions, eye, control);
-        third.left(evaluator, control);
-        third.mirror();
-        let [left, right] = margins.map(|margin| margin.map(|v| skin[v]));
-        if alike {
-            eyelids::tear_line(eye, &left, control);
+        let in_head = |eye: &Eye| {
+            if head.is_rest() {
+                return *eye;
+            }
+            let back = head.turn.transpose();
+            Eye { centre: head.back(eye.centre), axes: eye.axes.map(|a| back * a), ..*eye }
+        };
+        let flip = |p: Vec3| vec3(-p.x, p.y, p.z);
+        let margin = |side: usize| {
+            margins[side].map(|v| {
+                let p = if head.is_rest() { skin[v] } else { head.back(skin[v]) };
+                if side == 0 { p } else { flip(p) }
+            })
+        };
+        // Both are made as left ones; the right one first, so that the left one is there when it is done.
+        let sides: &[usize] = if alike { &[0] } else { &[1, 0] };
+        for &side in sides {
+            let eye = if side == 0 { in_head(&eyes[0]) } else { in_head(&eyes[1]).mirrored() };
+            eyelids::third_eyelid(proportions, &eye, control);
+            third.left(evaluator, control);
+            eyelids::tear_line(&eye, &margin(side), control);
             tears.left(evaluator, control);
-            tears.mirror();
-        } else {
-            eyelids::tear_line(eye, &right.map(|p| vec3(-p.x, p.y, p.z)), control);
-            tears.left(evaluator, control);
-            tears.mirror();
-            eyelids::tear_line(eye, &left, control);
-            tears.left(evaluator, control);
+            if side == 1 || alike {
+                third.mirror();
+                tears.mirror();
+            }
+        }
+        for values in third.sides.iter_mut().chain(&mut tears.sides) {
+            head.carry(&mut values.positions, &mut values.normals);
         }
     }
 

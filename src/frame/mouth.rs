@@ -4,8 +4,9 @@ use super::PipelineError;
 use super::parts::{Material, MaterialRange, PartTopology};
 use super::values::Values;
 use crate::anatomy::Look;
-use crate::rig::mouth::{Mouth, MouthOfHead, Tissue};
-use crate::rig::{Measures, Proportions};
+use crate::motion::Pose;
+use crate::rig::mouth::{Mouth, MouthOfHead, Tissue, bend_tongue};
+use crate::rig::{Measures, Places, Proportions};
 use crate::subdiv::{Evaluator, Plan, Scheme};
 use glam::{Vec3, vec3};
 
@@ -17,6 +18,8 @@ pub(super) struct MouthParts {
     mouth: Mouth,
     of_head: MouthOfHead,
     evaluator: Evaluator,
+    /// Control positions of the bent tongue.
+    bent: Vec<Vec3>,
     /// Upper gums, lower gums, tongue.
     parts: [(Plan, Values); 3],
 }
@@ -37,14 +40,26 @@ impl MouthParts {
             part(&lower, "gums_lower", Material::Gum)?,
             part(&tongue, "tongue", Material::Tongue)?,
         ];
-        Ok(Self { evaluator: Evaluator::new(&parts[0].0), mouth, of_head: MouthOfHead::default(), parts })
+        Ok(Self { evaluator: Evaluator::new(&parts[0].0), mouth, of_head: MouthOfHead::default(), bent: Vec::new(), parts })
     }
 
-    pub(super) fn shape(&mut self, measures: &Measures, proportions: &Proportions) {
-        self.mouth.shape(measures, proportions, &mut self.of_head);
-        let MouthOfHead { upper, lower, tongue, .. } = &self.of_head;
-        for ((plan, values), control) in self.parts.iter_mut().zip([upper, lower, tongue]) {
+    /// `head`: measures and proportions, where they changed; `unit`: metres of a millimetre of the head with a skull of 200 mm.
+    pub(super) fn shape(
+        &mut self,
+        head: Option<(&Measures, &Proportions)>,
+        pose: &Pose,
+        places: &Places,
+        unit: f32,
+    ) {
+        if let Some((measures, proportions)) = head {
+            self.mouth.shape(measures, proportions, &mut self.of_head);
+        }
+        bend_tongue(&self.of_head, pose, unit, &mut self.bent);
+        let MouthOfHead { upper, lower, .. } = &self.of_head;
+        let bodies = [(upper, &places.head), (lower, &places.mandible), (&self.bent, &places.mandible)];
+        for ((plan, values), (control, place)) in self.parts.iter_mut().zip(bodies) {
             self.evaluator.evaluate_into(plan, control, &mut values.positions, &mut values.normals);
+            place.carry(&mut values.positions, &mut values.normals);
         }
     }
 

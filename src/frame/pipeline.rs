@@ -19,7 +19,8 @@ use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Groom, Root};
 use crate::math::fnv::Fnv64;
-use crate::rig::{ControlError, Deformed, Pose, Rig, deform};
+use crate::motion::Pose;
+use crate::rig::{ControlError, Deformed, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
 use glam::Vec3;
 use std::sync::Arc;
@@ -229,7 +230,7 @@ impl Pipeline {
         Ok(())
     }
 
-    /// What the dog does in the next frames; at rest until this is called.
+    /// What the dog does in the next frames, inside the limits of its joints; at rest until this is called.
     pub fn set_pose(&mut self, pose: Pose) {
         self.pose = pose;
     }
@@ -295,7 +296,7 @@ impl Pipeline {
         if is_other || self.posed != self.pose {
             self.rig.pose(&breed.values, &self.pose, &mut self.deformed);
             self.posed = self.pose;
-            self.shape(&breed.values);
+            self.shape(&breed.values, is_other);
             self.revisions.shape += 1;
         }
         if self.look.as_ref() != Some(&breed.look) {
@@ -355,7 +356,8 @@ impl Pipeline {
         own.chain(lids).chain(whiskers).chain(bones).chain(mouth)
     }
 
-    fn shape(&mut self, values: &[f32]) {
+    /// `is_other`: whether the values changed, not the pose alone.
+    fn shape(&mut self, values: &[f32], is_other: bool) {
         let [skin, cap, left, right] = &mut self.parts;
         let control = &self.deformed.control;
         self.evaluator.evaluate_into(&self.plan, control, &mut skin.positions, &mut skin.normals);
@@ -367,16 +369,19 @@ impl Pipeline {
         }
         let (measures, proportions) = (self.rig.measures(values), self.rig.proportions(values));
         self.youth = self.rig.youth(values);
-        let [left, right] = self.pose.lids_closed;
-        let alike = left == right;
-        self.eyelids.shape(&proportions, &self.deformed.eyes[0], &skin.positions, alike);
-        self.whiskers.shape(skin, proportions.scale);
+        let alike = self.pose.is_rest();
+        let places = self.deformed.places;
+        self.eyelids.shape(&proportions, &self.deformed.eyes, &skin.positions, &places.head, alike);
+        self.whiskers.shape(skin, proportions.scale, alike);
         let Layers { bone, teeth, mouth, tongue, .. } = self.layers;
+        let head = Some((&measures, &proportions)).filter(|_| is_other);
         if let Some(skeleton) = self.skeleton.as_mut().filter(|_| bone || teeth) {
-            skeleton.shape(&measures, &proportions);
+            skeleton.shape(head, &places);
         }
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
-            inside.shape(&measures, &proportions);
+            let unit = self.rig.of_head(values, &mut self.deformed).unit;
+            let pose = self.rig.posing().limits().clamped(&self.pose);
+            inside.shape(head, &pose, &places, unit);
         }
     }
 

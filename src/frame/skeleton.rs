@@ -4,7 +4,7 @@ use super::parts::{Material, MaterialRange, PartTopology};
 use super::values::Values;
 use crate::mesh::DedgeMesh;
 use crate::rig::bone::{Bones, BonesOfHead, teeth};
-use crate::rig::{ControlError, Measures, Proportions};
+use crate::rig::{ControlError, Measures, Places, Proportions};
 use crate::subdiv::{Evaluator, Plan, PlanError, Scheme};
 use glam::Vec3;
 
@@ -20,6 +20,8 @@ pub(super) struct Skeleton {
     evaluator: Evaluator,
     /// Skull, mandible, upper and lower teeth.
     parts: [(Plan, Values); 4],
+    /// Positions and normals of each at rest.
+    rest: [[Vec<Vec3>; 2]; 4],
 }
 
 impl Skeleton {
@@ -48,6 +50,7 @@ impl Skeleton {
             bones,
             of_head: BonesOfHead::default(),
             evaluator: Evaluator::new(&skull),
+            rest: Default::default(),
             parts: [
                 part(skull, "skull", Material::Bone, ivory, 0.15),
                 part(mandible, "mandible", Material::Bone, ivory, 0.15),
@@ -57,11 +60,26 @@ impl Skeleton {
         })
     }
 
-    pub(super) fn shape(&mut self, measures: &Measures, proportions: &Proportions) {
-        self.bones.shape(measures, proportions, &mut self.of_head);
-        let BonesOfHead { skull, mandible, upper_teeth, lower_teeth, .. } = &self.of_head;
-        for ((plan, values), control) in self.parts.iter_mut().zip([skull, mandible, upper_teeth, lower_teeth]) {
-            self.evaluator.evaluate_into(plan, control, &mut values.positions, &mut values.normals);
+    /// `head`: measures and proportions, where they changed.
+    pub(super) fn shape(&mut self, head: Option<(&Measures, &Proportions)>, places: &Places) {
+        if let Some((measures, proportions)) = head {
+            self.bones.shape(measures, proportions, &mut self.of_head);
+            let BonesOfHead { skull, mandible, upper_teeth, lower_teeth, .. } = &self.of_head;
+            let controls = [skull, mandible, upper_teeth, lower_teeth];
+            for (((plan, _), rest), control) in self.parts.iter().zip(&mut self.rest).zip(controls) {
+                let [positions, normals] = rest;
+                positions.resize(plan.n_vertices(), Vec3::ZERO);
+                normals.resize(plan.n_vertices(), Vec3::ZERO);
+                self.evaluator.evaluate_into(plan, control, positions, normals);
+            }
+        }
+        let Places { head, mandible, .. } = places;
+        for (((_, values), [positions, normals]), place) in
+            self.parts.iter_mut().zip(&self.rest).zip([head, mandible, head, mandible])
+        {
+            values.positions.copy_from_slice(positions);
+            values.normals.copy_from_slice(normals);
+            place.carry(&mut values.positions, &mut values.normals);
         }
     }
 

@@ -27,6 +27,7 @@ struct Anchor {
 /// What belongs to one level, and what is drawn.
 pub(super) struct WhiskerParts {
     follicles: Vec<Follicle>,
+    /// Left, then right.
     anchors: Vec<Anchor>,
     /// The left ones, then their mirror images.
     pub(super) whiskers: Vec<Whisker>,
@@ -42,48 +43,65 @@ impl WhiskerParts {
         let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
         half.unfold(&base, &mut control);
         let (skin, _) = evaluate_once(plan, &control);
-        let anchors = follicles.iter().map(|f| anchor(rig, plan, &skin, &control, f)).collect();
+        let left = follicles.iter().map(|f| anchor(rig, plan, &skin, &control, f));
+        // The faces of the right half follow those of the left; two of their corners have changed places.
+        let right = follicles.iter().map(|f| {
+            let [u, v, w] = f.weights;
+            let image = Follicle { face: f.face + half.faces.len() as u32, weights: [u, w, v], ..*f };
+            anchor(rig, plan, &skin, &control, &image)
+        });
+        let anchors = left.chain(right).collect();
         let values = Values::new(topology(2 * follicles.len()));
         Ok(Self { follicles, anchors, whiskers: Vec::new(), values })
     }
 
-    /// `skin`: the refined one; `scale`: metres of a head unit, 0.01 on a cranium of 106 mm.
-    pub(super) fn shape(&mut self, skin: &Values, scale: f32) {
-        let of_skin = |values: &[Vec3], a: &Anchor| {
+    /// `skin`: the refined one; `scale`: metres of a head unit, 0.01 on a cranium of 106 mm; `alike`: whether both sides are
+    /// mirror images.
+    pub(super) fn shape(&mut self, skin: &Values, scale: f32, alike: bool) {
+        let Self { follicles, anchors, whiskers, values } = self;
+        let n = follicles.len();
+        let flip = |v: Vec3| vec3(-v.x, v.y, v.z);
+        // Right ones are grown as left ones on the mirror image of the right side.
+        let seen = |v: Vec3, is_left: bool| if is_left { v } else { flip(v) };
+        let of_skin = |values: &[Vec3], k: usize| {
+            let a = &anchors[k];
             let [p, q, r] = a.corners.map(|v| values[v as usize]);
-            p * a.weights.x + q * a.weights.y + r * a.weights.z
+            seen(p * a.weights.x + q * a.weights.y + r * a.weights.z, k < n)
         };
-        self.whiskers.clear();
-        for (f, anchor) in self.follicles.iter().zip(&self.anchors) {
-            let [p, q, r] = anchor.corners.map(|v| skin.positions[v as usize]);
-            let face = (q - p).cross(r - p).normalize_or_zero();
-            let normal = (of_skin(&skin.normals, anchor) + face).normalize_or(Vec3::Y);
-            let along = back(of_skin(&skin.flow, anchor), normal);
+        whiskers.clear();
+        for k in 0..if alike { n } else { 2 * n } {
+            let (f, is_left) = (&follicles[k % n], k < n);
+            let [p, q, r] = anchors[k].corners.map(|v| skin.positions[v as usize]);
+            let face = seen((q - p).cross(r - p).normalize_or_zero(), is_left);
+            let normal = (of_skin(&skin.normals, k) + face).normalize_or(Vec3::Y);
+            let along = back(of_skin(&skin.flow, k), normal);
             let across = normal.cross(along);
             let leaning = (normal * f.lean.x + along * f.lean.y + across * f.lean.z).normalize_or(normal);
             // Where the skin bends sharply, the face may look another way than the skin around it.
             let direction = (leaning + face * (0.35 - leaning.dot(face)).max(0.0)).normalize_or(face);
-            let position = of_skin(&skin.positions, anchor);
+            let position = of_skin(&skin.positions, k);
             let Follicle { group, row, place, .. } = *f;
             let length = 0.001 * f.length * scale / 0.01;
-            self.whiskers.push(Whisker { group, row, place, is_left: true, position, direction, length });
-        }
-        let flip = |v: Vec3| vec3(-v.x, v.y, v.z);
-        for k in 0..self.follicles.len() {
-            let left = self.whiskers[k];
-            let (position, direction) = (flip(left.position), flip(left.direction));
-            self.whiskers.push(Whisker { is_left: false, position, direction, ..left });
-        }
-        let half = self.follicles.len() * VERTICES;
-        for (k, (whisker, anchor)) in self.whiskers.iter().zip(&self.anchors).enumerate() {
+            let whisker = Whisker { group, row, place, is_left: true, position, direction, length };
+            whiskers.push(whisker);
             let own = k * VERTICES..(k + 1) * VERTICES;
-            let along = back(of_skin(&skin.flow, anchor), whisker.direction);
-            let (positions, normals) = (&mut self.values.positions[own.clone()], &mut self.values.normals[own]);
-            tube(whisker, along, RADIUS * scale / 0.01, positions, normals);
+            let along = back(of_skin(&skin.flow, k), direction);
+            let (positions, normals) = (&mut values.positions[own.clone()], &mut values.normals[own]);
+            tube(&whisker, along, RADIUS * scale / 0.01, positions, normals);
         }
-        for values in [&mut self.values.positions, &mut self.values.normals] {
-            let (left, right) = values.split_at_mut(half);
-            left.iter().zip(right).for_each(|(&l, r)| *r = flip(l));
+        if alike {
+            whiskers.extend_from_within(..);
+            for values in [&mut values.positions, &mut values.normals] {
+                values.copy_within(..n * VERTICES, n * VERTICES);
+            }
+        }
+        for whisker in &mut whiskers[n..] {
+            whisker.is_left = false;
+            whisker.position = flip(whisker.position);
+            whisker.direction = flip(whisker.direction);
+        }
+        for values in [&mut values.positions, &mut values.normals] {
+            values[n * VERTICES..].iter_mut().for_each(|v| *v = flip(*v));
         }
     }
 

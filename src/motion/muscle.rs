@@ -35,6 +35,9 @@ pub struct Muscle {
     pub path: Vec<Anchor>,
     /// Landmarks of the skin where it inserts; of a chewing muscle, of bone.
     pub insertion: Vec<String>,
+    /// Of a chewing muscle, landmarks of the skin over its belly.
+    #[serde(default)]
+    pub belly: Vec<String>,
     /// By how much it pulls its insertion at full contraction, millimetres on a head with a skull of 200 mm.
     pub pull_mm: f32,
     /// How far along the skin it reaches around its insertion, millimetres on the base head with a skull of 200 mm.

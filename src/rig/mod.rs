@@ -15,7 +15,7 @@ mod landmarks;
 mod lanes;
 mod mirror;
 pub mod mouth;
-mod pose;
+pub mod posing;
 mod primitives;
 mod proportions;
 mod uv;
@@ -25,14 +25,16 @@ pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
 pub use handles::{EAR_RINGS, Handles};
 pub use landmarks::{Place, SkinLandmark};
-pub use pose::Pose;
+pub use posing::{PosePlan, Places, Rigid};
 pub use proportions::{EarProportions, Measures, Proportions};
 pub use uv::{Chart, HEAD_UV, HalfUv};
 
 use crate::anatomy::{Breed, ParamTable};
 use crate::mesh::DedgeMesh;
+use crate::motion::{MotionError, Pose};
 use deform::{DeformPlan, Scratch};
 use glam::Vec3;
+use std::sync::Arc;
 
 /// The head's control mesh as baked.
 pub const HEAD: &str = include_str!("../../assets/head.ron");
@@ -46,6 +48,12 @@ pub enum RigError {
     /// The table has no row for a measure that the shape needs.
     #[error("rigs/anatomy.ron has no measure `{0}`, which the head's shape needs")]
     MissingMeasure(&'static str),
+    /// A table of motion is wrong.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A muscle hangs on a landmark that the head does not have.
+    #[error("rigs/muscles.ron: `{0}` is no landmark of skin or bone; 'londra landmarks' names them all")]
+    MissingLandmark(String),
 }
 
 /// Column in a breed's values of each of [`Measures::IDS`].
@@ -66,19 +74,28 @@ pub struct Rig {
     flow: Vec<(u32, u32)>,
     /// Number of each half vertex on the other side.
     images: Vec<u32>,
+    posing: Arc<PosePlan>,
 }
 
 /// One head's control positions; buffers are made once and written again for every breed.
 #[derive(Clone, Debug, Default)]
 pub struct Deformed {
     half: Vec<Vec3>,
-    /// The half with closed lids.
+    /// The half with other lids.
     posed: Vec<Vec3>,
+    /// What poses need of this head; none until one is asked for.
+    of_head: Option<posing::OfHead>,
+    /// Buffers of the last one.
+    spare: Option<posing::OfHead>,
+    /// The left eye at rest.
+    ahead: Eye,
     scratch: Scratch,
     /// Control positions of the whole mesh, metres, head's frame.
     pub control: Vec<Vec3>,
     /// The left eye and the right.
     pub eyes: [Eye; 2],
+    /// Where skull and mandible are.
+    pub places: Places,
 }
 
 impl Deformed {
@@ -109,7 +126,8 @@ impl Rig {
         let flow = Self::whole_flow(&half, &handles);
         let plan = DeformPlan::new(&half, handles, &Proportions::new(&defaults));
         let images = half.mirror();
-        Ok(Self { half, mesh, columns, plan, flow, images })
+        let posing = Arc::new(PosePlan::new(&half, &mesh, &plan, &images)?);
+        Ok(Self { half, mesh, columns, plan, flow, images, posing })
     }
 
     fn whole_flow(half: &HalfMesh, handles: &Handles) -> Vec<(u32, u32)> {
@@ -198,33 +216,43 @@ impl Rig {
         self.half.unfold(&out.half, &mut out.control);
         let axes = deform::eye_axes(&shape).map(|a| shape.direction(a));
         let left = Eye { centre: shape.metres(shape.eye()), radius: shape.eye_r * shape.scale, axes };
+        out.ahead = left;
         out.eyes = [left, left.mirrored()];
+        out.places = Places::default();
+        if let Some(of_head) = out.of_head.take() {
+            out.spare = Some(of_head);
+        }
     }
 
     /// Moves the control positions of a head that [`Rig::deform`] made from these values into a pose; at rest they are those
     /// of `deform`, bit for bit. It starts from the head at rest, whatever pose it was in.
     pub fn pose(&self, values: &[f32], pose: &Pose, out: &mut Deformed) {
-        let Deformed { half, posed, control, eyes, .. } = out;
-        self.half.unfold(half, control);
-        let [left, right] = pose.lids_closed.map(|closed| closed.clamp(0.0, 1.0));
-        if left == 0.0 && right == 0.0 {
+        self.half.unfold(&out.half, &mut out.control);
+        out.eyes = [out.ahead, out.ahead.mirrored()];
+        out.places = Places::default();
+        if pose.is_rest() {
             return;
         }
-        let shape = self.proportions(values);
-        let axes = deform::orbit_axes(&shape).map(|axis| shape.direction(axis));
-        let handles = self.plan.handles();
-        for (side, closed) in [left, right].into_iter().enumerate().filter(|(_, closed)| *closed > 0.0) {
-            if side == 0 || closed != left {
-                deform::close_lids(&self.plan, &eyes[0], axes, closed, half, posed);
-            }
-            for v in deform::lid_vertices(handles) {
-                let p = posed[v];
-                if side == 0 {
-                    control[v] = p;
-                } else {
-                    control[self.images[v] as usize] = Vec3::new(-p.x, p.y, p.z);
-                }
-            }
-        }
+        self.of_head(values, out);
+        let Deformed { half, posed, of_head, control, eyes, places, ahead, .. } = out;
+        let Some(head) = of_head else { return };
+        (*eyes, *places) = self.posing.apply(&self.plan, head, half, ahead, pose, posed, control);
+    }
+
+    /// What poses and muscles need of a head that [`Rig::deform`] made from these values; made when it is first asked for.
+    pub fn of_head<'a>(&self, values: &[f32], out: &'a mut Deformed) -> &'a posing::OfHead {
+        let Deformed { half, of_head, spare, .. } = out;
+        of_head.get_or_insert_with(|| {
+            let mut made = spare.take().unwrap_or_default();
+            let measures = self.measures(values);
+            let shape = Proportions::new(&measures);
+            self.posing.measure((&self.mesh, &self.half), &measures, &shape, half, &mut made);
+            made
+        })
+    }
+
+    /// How poses move the mesh.
+    pub fn posing(&self) -> &PosePlan {
+        &self.posing
     }
 }

@@ -31,6 +31,14 @@ const SPLIT: f32 = 0.03;
 const ABOVE: [f32; 3] = [0.02, 0.16, 0.4];
 /// How far a control vertex of a margin goes beyond the line where they meet, radians.
 const FARTHEST: f32 = 0.1;
+/// How far the upper lid and the lower one turn for a turn of the gaze up or down, and for a raised lid, radians.
+const UPPER_FOLLOWS: f32 = 0.55;
+const LOWER_FOLLOWS: f32 = 0.12;
+const RAISED: f32 = 0.16;
+/// The fold's part of it.
+const FOLD_FOLLOWS: f32 = 0.5;
+/// How much of the slit the upper lid closes at most as it follows the gaze down.
+const MOST_DOWN: f32 = 0.7;
 /// Rounds in which the margins find each other.
 const ROUNDS: usize = 6;
 
@@ -62,6 +70,15 @@ impl Hinge<'_> {
         self.eye.centre + a * t.along + (b * ops::sin(t.angle) + g * ops::cos(t.angle)) * t.away
     }
 
+    /// Not nearer to the ball than `rest` was to the ball `ahead`, or than `above` asks for.
+    fn off(&self, p: Vec3, ahead: &Eye, rest: Vec3, above: f32) -> Vec3 {
+        let from = rest - ahead.centre;
+        let was = from.length() - ahead.reach(from.normalize_or(self.axes[2]));
+        let out = (p - self.eye.centre).normalize_or(self.axes[2]);
+        let least = self.eye.reach(out) + was.min(above * self.eye.radius);
+        self.eye.centre + out * (p - self.eye.centre).length().max(least)
+    }
+
     /// Turned to an angle, and then not nearer to the ball than this.
     fn slid(&self, p: Vec3, angle: f32, above: f32) -> Vec3 {
         let p = self.place(Turned { angle, ..self.turned(p) });
@@ -72,22 +89,56 @@ impl Hinge<'_> {
     }
 }
 
-/// Puts the left lids where they are when `closed` (0 to 1); `axes`: unit, those of the orbit in the head's frame; `rest`:
-/// the half's control positions with open lids, metres; `at`: scratch of the same length, of which the lids' vertices
-/// ([`vertices`]) are the result.
-pub fn close(plan: &DeformPlan, eye: &Eye, axes: [Vec3; 3], closed: f32, rest: &[Vec3], at: &mut Vec<Vec3>) {
+/// What the lids of an eye do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lids {
+    /// 0 is open as at rest, 1 shut.
+    pub closed: f32,
+    /// How far the upper lid is raised beyond its rest, 0 to 1.
+    pub raised: f32,
+    /// How far the eye looks up, radians: the upper lid follows the pupil, the lower one a little.
+    pub lift: f32,
+}
+
+/// Puts the left lids where they are; `eye`: with its gaze; `axes`: unit, those of the orbit in the head's frame; `rest`:
+/// the half's control positions with open lids around the eye at rest (`ahead`), metres; `at`: scratch of the same length,
+/// of which the lids' vertices ([`vertices`]) are the result.
+pub fn place(
+    plan: &DeformPlan,
+    (eye, ahead): (&Eye, &Eye),
+    axes: [Vec3; 3],
+    lids: Lids,
+    rest: &[Vec3],
+    at: &mut Vec<Vec3>,
+) {
     let hinge = Hinge { eye, axes };
+    let h = plan.handles();
     at.clear();
     at.extend_from_slice(rest);
-    shut(plan, &hinge, rest, at);
-    for v in vertices(plan.handles()) {
-        let [open, shut] = [rest[v], at[v]].map(|p| hinge.turned(p));
-        let mix = |a: f32, b: f32| a + (b - a) * closed;
-        at[v] = hinge.place(Turned {
-            along: mix(open.along, shut.along),
-            away: mix(open.away, shut.away),
-            angle: mix(open.angle, shut.angle),
-        });
+    if lids.closed > 0.0 {
+        shut(plan, &hinge, rest, at);
+    }
+    for k in (1..12).filter(|k| k % 6 != 0) {
+        let is_upper = k < 6;
+        // The middle of a lid goes farthest; what looks down does not shut the eye.
+        let middle = ops::sin(core::f32::consts::PI * (k % 6) as f32 / 6.0);
+        let [own, other] = [h.er[k], h.er[12 - k]].map(|v| hinge.turned(rest[usize::from(v)]).angle);
+        let follows = if is_upper { UPPER_FOLLOWS * lids.lift + RAISED * lids.raised } else { LOWER_FOLLOWS * lids.lift };
+        let least = -MOST_DOWN * (own - other).abs();
+        let turn = middle * if is_upper { follows.max(least) } else { follows };
+        for (row, part, above) in [(&h.of, FOLD_FOLLOWS, ABOVE[2]), (&h.er, 1.0, ABOVE[1]), (&h.ei, 1.0, ABOVE[0])] {
+            let v = usize::from(row[k]);
+            let (mut open, shut) = (hinge.turned(rest[v]), hinge.turned(at[v]));
+            open.angle += turn * part;
+            let mix = |a: f32, b: f32| a + (b - a) * lids.closed;
+            let p = hinge.place(Turned {
+                along: mix(open.along, shut.along),
+                away: mix(open.away, shut.away),
+                angle: mix(open.angle, shut.angle),
+            });
+            // The cornea goes with the gaze, and lifts the lids: as far off it as they were, or as they need be.
+            at[v] = if eye == ahead && turn == 0.0 { p } else { hinge.off(p, ahead, rest[v], above) };
+        }
     }
 }
 

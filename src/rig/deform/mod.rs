@@ -20,7 +20,7 @@ use crate::math::ops;
 use glam::Vec3;
 use std::sync::Arc;
 
-pub(super) use blink::{close as close_lids, vertices as lid_vertices};
+pub(super) use blink::{Lids, place as place_lids, vertices as lid_vertices};
 pub use fit::{FitPlan, hollow, layers};
 pub use lids::{eye_axes, orbit_axes};
 use limit::LimitPlan;

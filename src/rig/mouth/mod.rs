@@ -5,10 +5,12 @@
 //! mandible.
 
 mod arch;
+mod bend;
 mod gums;
 mod tongue;
 
 pub use arch::Arch;
+pub use bend::bend_tongue;
 pub use gums::{N_RUGAE, Tissue};
 
 use super::bone::{BoneField, BoneMesh, Targets, targets, teeth};
@@ -77,6 +79,10 @@ pub struct MouthOfHead {
     pub lower: Vec<Vec3>,
     /// Tongue.
     pub tongue: Vec<Vec3>,
+    /// Vertices of the tongue by its sections from the root to the tip.
+    sections: Vec<Vec<u16>>,
+    /// Highest and foremost place of the middle lower incisors.
+    lower_front: Vec3,
 }
 
 impl Default for Mouth {
@@ -108,7 +114,10 @@ impl Mouth {
         let skin = Implicit::new(proportions);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
         let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
-        let MouthOfHead { half, teeth, upper, lower, tongue } = out;
+        let MouthOfHead { half, teeth, upper, lower, tongue, sections, lower_front } = out;
+        if sections.is_empty() {
+            *sections = tongue::sections(&self.tongue);
+        }
         // The lower lip is thin, and bone under it is seen to lie under the whole head only: its gum may stand out a little
         // of the lower head, or it would lie in the bone.
         let whole_head = (Layer::Whole, gums::LEAST_TISSUE);
@@ -125,6 +134,8 @@ impl Mouth {
         teeth::place(&targets, false, below);
         tongue::place(&targets, &arches, [above, below], &fields, half);
         self.tongue.unfold(half, tongue);
+        let incisor = below.iter().take(teeth::TOOTH_VERTICES);
+        *lower_front = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).with_x(0.0);
     }
 }
 

@@ -11,9 +11,9 @@ use crate::rig::bone::{BoneField, Targets};
 use glam::{Vec3, vec3};
 
 /// Sections from the root to the tip.
-const SECTIONS: usize = 30;
+pub(super) const SECTIONS: usize = 30;
 /// Places around a half section, from the back's midline to the underside's.
-const AROUND: usize = 11;
+pub(super) const AROUND: usize = 11;
 /// Between tongue and teeth, canonical millimetres.
 const GAP: f32 = 1.2;
 /// Between tongue and bone, canonical millimetres: under the palate with its ridges; over the floor where the tongue is
@@ -44,6 +44,24 @@ pub(super) fn body() -> HalfBody {
         body.faces.push([tip, at(SECTIONS - 1, j + 1), at(SECTIONS - 1, j)].map(|v| v as u16));
     }
     body
+}
+
+/// Vertices of the whole body by section; root and tip go with the first and the last.
+pub(super) fn sections(body: &HalfBody) -> Vec<Vec<u16>> {
+    let images = crate::rig::mirror::images(&body.midline);
+    let mut out = vec![Vec::new(); SECTIONS];
+    for (v, &image) in images.iter().enumerate() {
+        let own = match v / AROUND {
+            i if i < SECTIONS => i,
+            _ if v == SECTIONS * AROUND => 0,
+            _ => SECTIONS - 1,
+        };
+        out[own].push(v as u16);
+        if image as usize != v {
+            out[own].push(image as u16);
+        }
+    }
+    out
 }
 
 /// What a tooth takes up.
@@ -175,7 +193,7 @@ pub(super) fn place(
 }
 
 /// Rises from `a` to `b`, whichever is the larger.
-fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
+pub(super) fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
     let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }

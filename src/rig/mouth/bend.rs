@@ -1,0 +1,82 @@
+//! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
+//! the mouth grows longer and thinner, since a tongue keeps its volume (Kier and Smith 1985).
+
+use super::MouthOfHead;
+use super::tongue::{AROUND, SECTIONS};
+use crate::math::ops;
+use crate::motion::{Channel, Pose};
+use glam::{Mat3, Vec3, vec3};
+
+/// Where the free part begins, as a part of the length, and from where on it is free.
+const FREE: [f32; 2] = [0.25, 0.45];
+/// Over how much of its way the part that leaves the mouth bends, millimetres before and behind the incisors.
+const BEND: [f32; 2] = [4.0, 30.0];
+/// Part of the length from which the tip curls.
+const CURLS: f32 = 0.62;
+/// How much wider a wide tongue is.
+const WIDER: f32 = 0.40;
+/// Over the incisors, millimetres.
+const OVER: f32 = 1.5;
+
+/// Moves the tongue's control positions; `mouth`: at rest, `unit`: metres of a millimetre of the head with a skull of 200
+/// mm; `out`: as long as `mouth.tongue`.
+pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Vec3>) {
+    out.clear();
+    out.extend_from_slice(&mouth.tongue);
+    let [far, lift, curl, side, wide] = [
+        Channel::TongueOut,
+        Channel::TongueLift,
+        Channel::TongueCurl,
+        Channel::TongueSide,
+        Channel::TongueWide,
+    ]
+    .map(|c| pose.median(c));
+    if [far, lift, curl, side, wide].iter().all(|v| *v == 0.0) {
+        return;
+    }
+    let rest = &mouth.tongue;
+    let middle = |i: usize| 0.5 * (rest[i * AROUND] + rest[i * AROUND + AROUND - 1]).with_x(0.0);
+    let smooth = super::tongue::smoothstep;
+    let steps: [Vec3; SECTIONS] =
+        std::array::from_fn(|i| if i == 0 { Vec3::ZERO } else { middle(i) - middle(i - 1) });
+    let length: f32 = steps.iter().map(|d| d.length()).sum::<f32>().max(1e-5);
+    let mut along = [0.0; SECTIONS];
+    for i in 1..SECTIONS {
+        along[i] = along[i - 1] + steps[i].length() / length;
+    }
+    let free = |s: f32| smooth(FREE[0], FREE[1], s);
+    let freely: f32 = (1..SECTIONS).map(|i| steps[i].length() * free(along[i])).sum::<f32>().max(1e-5);
+    let stretch = |s: f32| (1.0 + far * unit / freely * free(s)).max(0.3);
+    // Where the incisors are on the way, which is as long as the tongue at rest.
+    let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
+    let from = if lift > 0.0 { 0.8 * from } else { from };
+    let is_out = smooth(0.0, 12.0, far);
+    let front = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
+    let (mut at, mut way) = (middle(0), 0.0);
+    for i in 0..SECTIONS {
+        let s = along[i];
+        let thick = stretch(s);
+        let turn = |s: f32, way: f32| {
+            let up = lift * smooth(from, to, way) + curl * smooth(CURLS, 1.0, s);
+            Mat3::from_rotation_y((side * smooth(FREE[0], 0.9, s)).to_radians())
+                * Mat3::from_rotation_x(-up.to_radians())
+        };
+        let step = steps[i] * thick;
+        at += turn(s, way + 0.5 * step.length()) * step;
+        way += step.length();
+        let turn = turn(s, way);
+        let wider = 1.0 + WIDER * wide * free(s);
+        let (x, y) = (wider * ops::powf(thick, -0.25), ops::powf(thick, -0.5) / ops::sqrt(wider));
+        // It lies on the incisors where it passes them.
+        let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
+        let lies = (front.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
+        let lifted = at + vec3(0.0, lies, 0.0);
+        let place = |p: Vec3| {
+            let d = p - middle(i);
+            lifted + turn * vec3(d.x * x, d.y * y, d.z)
+        };
+        for &v in &mouth.sections[i] {
+            out[v as usize] = place(rest[v as usize]);
+        }
+    }
+}

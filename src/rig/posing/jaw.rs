@@ -1,0 +1,74 @@
+//! The mandible: it turns about both condyles and glides a little, and takes the skin of the lower jaw along.
+//!
+//! Between what goes with the mandible and what stays with the skull a vertex makes a part of the turn about the same
+//! hinge, so that it runs on an arc and the cheek neither sinks in nor tears.
+
+use super::rigid::Rigid;
+use super::zones::Neighbours;
+use crate::motion::{Channel, Pose};
+use crate::rig::handles::{Handles, NONE};
+use glam::{Mat3, Vec3, vec3};
+
+/// Where the corner of the mouth goes, as a part of the mandible's turn: nearer to the upper lip, which is longer there.
+const CORNER: f32 = 0.42;
+const ROUNDS: usize = 400;
+
+/// Weight of the mandible's turn for each vertex of the whole mesh; `images`: of the half's vertices.
+pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usize) -> Vec<f32> {
+    let mut held: Vec<Option<f32>> = vec![Some(0.0); n];
+    let mut set = |v: u16, weight: Option<f32>| {
+        if v != NONE {
+            held[usize::from(v)] = weight;
+            held[images[usize::from(v)] as usize] = weight;
+        }
+    };
+    // Free: cheek below the arch, throat, lips near their corner.
+    for i in 8..17 {
+        for j in 6..10 {
+            if i > 10 || j >= 8 {
+                set(h.s[i][j], None);
+            }
+        }
+    }
+    for i in 3..17 {
+        for j in 9..15 {
+            let lip = (9..11).contains(&j);
+            let bone = i < 9 || (i < 13 && !lip && j > 11) || (i < 11 && j == 11);
+            let held = match i {
+                // The upper lip's corner is set below.
+                10.. if j == 9 => continue,
+                ..9 => Some(1.0),
+                _ if bone => Some(1.0),
+                _ => None,
+            };
+            set(h.l[i][j], held);
+        }
+    }
+    for i in 3..11 {
+        for p in 1..4 {
+            // The lining goes with the lip that it lines.
+            set(h.ml[i][p], if i < 9 { Some(1.0) } else { None });
+            if i >= 9 {
+                set(h.mu[i][p], None);
+            }
+        }
+    }
+    set(h.s[10][9], Some(CORNER));
+    regions.passage(&held, ROUNDS)
+}
+
+/// The mandible in the head's frame; `hinge`: the middle of both condyles, `unit`: metres of a millimetre of the head with a
+/// skull of 200 mm.
+pub(super) fn mandible(hinge: Vec3, unit: f32, pose: &Pose) -> Rigid {
+    turned(hinge, unit, pose, 1.0)
+}
+
+/// The same with a part of its turn and of its glide.
+pub(super) fn turned(hinge: Vec3, unit: f32, pose: &Pose, part: f32) -> Rigid {
+    let [gape, forward, aside] =
+        [Channel::JawGape, Channel::JawProtrusion, Channel::JawSlide].map(|c| pose.median(c) * part);
+    if gape == 0.0 && forward == 0.0 && aside == 0.0 {
+        return Rigid::default();
+    }
+    Rigid::about(hinge, Mat3::from_rotation_x(gape.to_radians()), vec3(aside, 0.0, forward) * unit)
+}
