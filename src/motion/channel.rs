@@ -88,6 +88,32 @@ impl Channel {
     /// Number of channels.
     pub const COUNT: usize = Self::ALL.len();
 
+    /// Whether its sign tells left from right: positive is to the dog's left.
+    pub const fn is_lateral(self) -> bool {
+        matches!(
+            self,
+            Self::HeadTurn | Self::HeadTilt | Self::JawSlide | Self::GazeTurn | Self::TongueSide | Self::FlewSway
+        )
+    }
+
+    /// Whether of two movements the larger one shows, not their sum: a mouth that one wish opens by 14 degrees and another
+    /// by 20 stands open by 20.
+    pub const fn takes_largest(self) -> bool {
+        matches!(
+            self,
+            Self::JawGape
+                | Self::LidClosed
+                | Self::LidRaised
+                | Self::TongueOut
+                | Self::TongueLift
+                | Self::TongueCurl
+                | Self::TongueWide
+                | Self::LipsPart
+                | Self::CheekPuff
+                | Self::Bite
+        )
+    }
+
     /// The channel of that name.
     pub fn from_id(id: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|c| c.id() == id)

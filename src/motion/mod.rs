@@ -2,15 +2,29 @@
 //!
 //! Time is an argument everywhere; the same arguments give the same bits.
 
+mod activation;
 mod channel;
 mod muscle;
+mod notation;
 mod pose;
+mod resolve;
+mod rule;
 mod skeleton;
+mod target;
+mod unit;
 
+pub use activation::{Activation, Side};
 pub use channel::Channel;
 pub use muscle::{Anchor, Kind, MUSCLES, Muscle, MuscleTable};
+pub use notation::{Mistake, NotationError};
 pub use pose::Pose;
+pub use resolve::Overruled;
+pub use rule::{Rule, RuleKind};
 pub use skeleton::{ChannelSpec, JointLimits, SKELETON};
+pub use target::Target;
+pub use unit::{
+    Axis, Cycle, Drive, Gap, Group, LandmarkMotion, Sides, Status, Swing, UNITS, Unit, UnitError, UnitTable,
+};
 
 /// Why a table of motion cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -28,4 +42,19 @@ pub enum MotionError {
         /// What is wrong, and what is allowed.
         problem: String,
     },
+}
+
+impl MotionError {
+    /// A mistake in a row.
+    pub(crate) fn row(file: &str, id: &str, problem: impl Into<String>) -> Self {
+        Self::Row { file: file.to_owned(), id: id.to_owned(), problem: problem.into() }
+    }
+
+    /// Refuses a file of another version than 1.
+    pub(crate) fn check_version(file: &str, version: u32) -> Result<(), Self> {
+        if version == 1 {
+            return Ok(());
+        }
+        Err(Self::row(file, "version", format!("is {version}, this program reads 1")))
+    }
 }

@@ -60,6 +60,14 @@ impl Pose {
         &mut self.muscles[muscle]
     }
 
+    /// Adds another pose, value by value.
+    pub fn add(&mut self, other: &Self) {
+        let mine = self.channels.iter_mut().chain(&mut self.muscles).flatten();
+        for (mine, theirs) in mine.zip(other.channels.iter().chain(&other.muscles).flatten()) {
+            *mine += theirs;
+        }
+    }
+
     /// Changes every contraction.
     pub(super) fn each_muscle(&mut self, mut change: impl FnMut(&mut f32)) {
         self.muscles.iter_mut().flatten().for_each(&mut change);
