@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 /// How far from the margin a lip follows it, head units of the base head.
 const REACH: f32 = 2.4;
 /// How far a cheek is puffed out around the muzzle's side.
-const PUFF: f32 = 4.2;
+const PUFF: f32 = 5.0;
 /// How much a lip that parts turns outwards for its way up or down.
 const CURL: f32 = 0.35;
 
@@ -49,7 +49,7 @@ impl Lips {
         let upper = rows(column(9, &s), &h.mu, &|i, j| vec![s(i, j)]);
         let lower = rows(column(9, &l), &h.ml, &|i, j| if j >= 9 { vec![l(i, j)] } else { vec![] });
         let flew = upper.iter().map(|&(v, w)| (v, w * smoothstep(0.0, 1.0, base[v as usize].x))).collect();
-        let middle = [(u32::from(h.s[6][7]), 0.0), (u32::from(h.s[7][7]), 0.0)];
+        let middle = [(u32::from(h.s[7][7]), 0.0), (u32::from(h.s[8][7]), 0.0)];
         let ways = neighbours.ways(base, &middle, PUFF);
         let haired = h.s.iter().flatten().copied().filter(|&v| v != NONE);
         let mut cheek: Vec<(u32, f32)> = haired

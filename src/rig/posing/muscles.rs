@@ -6,7 +6,7 @@
 use super::zones::{Neighbours, fade, smoothstep};
 use crate::anatomy::Region;
 use crate::mesh::VertexId;
-use crate::motion::{Kind, MuscleTable};
+use crate::motion::{Kind, Muscle, MuscleTable};
 use crate::rig::bone::{LANDMARKS, Targets};
 use crate::rig::{HalfMesh, Place, RigError};
 use glam::Vec3;
@@ -39,6 +39,8 @@ struct Bound {
     gather: f32,
     /// Vertices of the whole mesh that the left one moves, ascending.
     vertices: Vec<u32>,
+    /// Those of the lips and their lining.
+    lips: Vec<u32>,
     /// For each of them and each insertion, how much it is pulled.
     weights: Vec<f32>,
 }
@@ -137,7 +139,10 @@ impl MusclePlan {
                     weights.extend(of_zones);
                 }
             }
-            Ok(Bound { kind: m.kind, path, insertion, pull_mm: m.pull_mm, gather: m.gather, vertices, weights })
+            let is_lip = |v: &u32| matches!(regions[*v as usize], Region::UpperLip | Region::LowerLip | Region::Mouth);
+            let lips = vertices.iter().copied().filter(is_lip).collect();
+            let Muscle { kind, pull_mm, gather, .. } = *m;
+            Ok(Bound { kind, path, insertion, pull_mm, gather, vertices, lips, weights })
         });
         Ok(Self { bound: bound.collect::<Result<_, RigError>>()?, mirror: mirror.to_vec() })
     }
@@ -194,6 +199,8 @@ impl MusclePlan {
                     // Skin slides over what lies under it, and does not go into it.
                     let way = way * (most / sum.max(1e-6));
                     let n = normals[v as usize];
+                    // A lip's edge looks down, and may rise.
+                    let n = if m.lips.contains(&v) { n.with_y(0.0) } else { n };
                     let way = way - n * (INWARDS * way.dot(n).min(0.0));
                     out.entries.push((v, way * pull));
                 }
