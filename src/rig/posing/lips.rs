@@ -7,6 +7,8 @@ use glam::{Vec3, vec3};
 
 /// How far from the margin a lip follows it, head units of the base head.
 const REACH: f32 = 2.4;
+/// Way of the lower lip for that of the upper one: it is held by the chin.
+const LOWER: f32 = 0.55;
 /// How far a cheek is puffed out around the muzzle's side.
 const PUFF: f32 = 5.0;
 /// How much a lip that parts turns outwards for its way up or down.
@@ -81,7 +83,7 @@ impl Lips {
             }
         };
         push(&self.upper, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, 1.0, CURL * normals[v].z), true);
-        push(&self.lower, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, -1.0, CURL * normals[v].z), true);
+        push(&self.lower, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, -1.0, CURL * normals[v].z) * LOWER, true);
         push(&self.cheek, Channel::CheekPuff, &|v| normals[v], true);
         push(&self.flew, Channel::FlewSway, &|_| Vec3::X, false);
     }

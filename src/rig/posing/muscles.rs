@@ -19,6 +19,8 @@ const SHARED: f32 = 0.8;
 const THROWN_UP: f32 = 9.0;
 /// Part of a pull into the head that the tissue below takes back.
 const INWARDS: f32 = 0.9;
+/// How much the lining at the corner of the mouth goes with it.
+const CORNER: f32 = 0.7;
 /// Weakest pull that counts.
 const LEAST: f32 = 0.004;
 
@@ -95,6 +97,7 @@ impl MusclePlan {
         // The lining goes with the margin of its lip, so that it never hangs below it, and is grown to the gum behind.
         let margin = |v: usize| -> Option<(usize, f32)> {
             let own = if v < half.n_half() { v } else { mirror[v] as usize };
+            // Round the corner it is held back inside.
             let (lip, part) = match half.tags[own].split('.').collect::<Vec<_>>()[..] {
                 ["mu", row, "1"] => (format!("s.{row}.9"), 1.0),
                 ["mu", row, "2"] => (format!("s.{row}.9"), 0.9),
@@ -103,6 +106,7 @@ impl MusclePlan {
                 ["mu" | "ml", ..] => return Some((v, 0.0)),
                 _ => return None,
             };
+            let part = if lip.contains(".9.") || lip.contains(".10.") { part * CORNER } else { part };
             let lip = if lip == "l.10.9" { "s.10.9" } else { &lip };
             let lip = half.tags.iter().position(|t| t == lip)?;
             Some((if v < half.n_half() { lip } else { mirror[lip] as usize }, part))
