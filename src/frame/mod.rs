@@ -6,6 +6,7 @@ mod eyeball;
 mod eyelids;
 mod layers;
 mod mouth;
+mod muscles;
 mod parts;
 mod pipeline;
 mod skeleton;

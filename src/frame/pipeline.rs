@@ -10,6 +10,7 @@ use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
 use super::layers::Layers;
 use super::mouth::MouthParts;
+use super::muscles::MuscleParts;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
 use super::uv::Uv;
@@ -70,6 +71,8 @@ pub struct Pipeline {
     uv: bool,
     /// Once bone or teeth are asked for.
     skeleton: Option<Skeleton>,
+    /// Once they are asked for.
+    muscles: Option<MuscleParts>,
     /// Once mouth or tongue are asked for.
     mouth: Option<MouthParts>,
     dyes: Dyes,
@@ -126,6 +129,7 @@ impl Pipeline {
             layers: Layers::default(),
             uv: false,
             skeleton: None,
+            muscles: None,
             mouth: None,
             dyes: Dyes::default(),
             hair: HairValues::default(),
@@ -211,16 +215,19 @@ impl Pipeline {
     /// Where a baked bone is none.
     pub fn set_layers(&mut self, layers: Layers) -> Result<(), PipelineError> {
         let shown = |l: Layers| Layers { skin: f32::from(u8::from(l.skin > 0.0)), ..l };
-        let deep = |l: Layers| [l.bone || l.teeth, l.mouth || l.tongue];
-        let [bone, mouth] = deep(layers);
+        let deep = |l: Layers| [l.bone || l.teeth, l.mouth || l.tongue, l.muscles];
+        let [bone, mouth, muscles] = deep(layers);
         if bone && self.skeleton.is_none() {
             self.skeleton = Some(Skeleton::new()?);
+        }
+        if muscles && self.muscles.is_none() {
+            self.muscles = Some(MuscleParts::new(&self.rig)?);
         }
         if mouth && self.mouth.is_none() {
             self.mouth = Some(MouthParts::new()?);
             self.look = None;
         }
-        if deep(self.layers).iter().zip([bone, mouth]).any(|(had, wants)| wants && !had) {
+        if deep(self.layers).iter().zip([bone, mouth, muscles]).any(|(had, wants)| wants && !had) {
             self.values.clear();
         }
         if shown(layers) != shown(self.layers) {
@@ -346,14 +353,15 @@ impl Pipeline {
 
     /// The parts of the layers, in the written order.
     fn shown(&self) -> impl Iterator<Item = &Values> {
-        let Layers { skin, eyes, whiskers, bone, teeth, mouth, tongue } = self.layers;
+        let Layers { skin, eyes, whiskers, muscles, bone, teeth, mouth, tongue } = self.layers;
         let own = [skin > 0.0, skin > 0.0, eyes, eyes];
         let own = self.parts.iter().zip(own).filter(|(_, shown)| *shown).map(|(part, _)| part);
         let lids = self.eyelids.parts().filter(move |_| eyes);
         let whiskers = Some(&self.whiskers.values).filter(|_| whiskers);
+        let muscles = self.muscles.iter().filter(move |_| muscles).map(|m| &m.values);
         let bones = self.skeleton.iter().flat_map(move |s| s.parts(bone, teeth));
         let mouth = self.mouth.iter().flat_map(move |m| m.parts(mouth, tongue));
-        own.chain(lids).chain(whiskers).chain(bones).chain(mouth)
+        own.chain(lids).chain(whiskers).chain(muscles).chain(bones).chain(mouth)
     }
 
     /// `is_other`: whether the values changed, not the pose alone.
@@ -373,10 +381,13 @@ impl Pipeline {
         let places = self.deformed.places;
         self.eyelids.shape(&proportions, &self.deformed.eyes, &skin.positions, &places.head, alike);
         self.whiskers.shape(skin, proportions.scale, alike);
-        let Layers { bone, teeth, mouth, tongue, .. } = self.layers;
+        let Layers { muscles, bone, teeth, mouth, tongue, .. } = self.layers;
         let head = Some((&measures, &proportions)).filter(|_| is_other);
         if let Some(skeleton) = self.skeleton.as_mut().filter(|_| bone || teeth) {
             skeleton.shape(head, &places);
+        }
+        if let Some(part) = self.muscles.as_mut().filter(|_| muscles) {
+            part.shape(&self.rig, values, &self.pose, &mut self.deformed);
         }
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
             let unit = self.rig.of_head(values, &mut self.deformed).unit;

@@ -251,6 +251,15 @@ impl Rig {
         })
     }
 
+    /// Positions of the muscles' straps ([`posing::Fibres`]) of a head that [`Rig::pose`] made from these values and this
+    /// pose, metres.
+    pub fn straps(&self, values: &[f32], pose: &Pose, head: &mut Deformed, out: &mut Vec<Vec3>) {
+        self.of_head(values, head);
+        if let Some(of_head) = &head.of_head {
+            self.posing.straps(&self.half, of_head, pose, (&head.control, &head.places), out);
+        }
+    }
+
     /// How poses move the mesh.
     pub fn posing(&self) -> &PosePlan {
         &self.posing

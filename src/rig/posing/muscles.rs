@@ -8,7 +8,7 @@ use crate::anatomy::Region;
 use crate::mesh::VertexId;
 use crate::motion::{Kind, Muscle, MuscleTable};
 use crate::rig::bone::{LANDMARKS, Targets};
-use crate::rig::{HalfMesh, Place, RigError};
+use crate::rig::{HalfMesh, Place, RigError, SkinLandmark};
 use glam::Vec3;
 
 /// Head units of the base head for a millimetre of a head with a skull of 200 mm.
@@ -26,9 +26,20 @@ const LEAST: f32 = 0.004;
 
 /// Where a landmark is found.
 #[derive(Clone, Copy, Debug)]
-enum Spot {
+pub(super) enum Spot {
+    /// On the skin.
     Skin(Place),
+    /// Number in the list of bone's landmarks.
     Bone(usize),
+}
+
+impl Spot {
+    /// The landmark of that id.
+    pub(super) fn find(id: &str, skin: &[SkinLandmark]) -> Result<Self, RigError> {
+        let of_skin = skin.iter().find(|l| l.id == *id).map(|l| Spot::Skin(l.place));
+        let of_bone = || LANDMARKS.iter().position(|l| l.id == id).map(Spot::Bone);
+        of_skin.or_else(of_bone).ok_or_else(|| RigError::MissingLandmark(id.to_owned()))
+    }
 }
 
 /// A muscle on the mesh.
@@ -61,8 +72,6 @@ pub struct Pulls {
     /// Start of each muscle's entries, and the end of the last.
     offsets: Vec<u32>,
     entries: Vec<(u32, Vec3)>,
-    /// The way of each muscle's fibres on this head, from origin to insertion, metres: for who draws it.
-    pub(in crate::rig) ways: Vec<Vec<[Vec3; 4]>>,
 }
 
 /// How freely the skin of a region slides over the bone, 0 to 1.
@@ -87,11 +96,7 @@ impl MusclePlan {
         mirror: &[u32],
     ) -> Result<Self, RigError> {
         let skin = half.skin_landmarks();
-        let spot = |id: &String| {
-            let of_skin = skin.iter().find(|l| l.id == *id).map(|l| Spot::Skin(l.place));
-            let of_bone = || LANDMARKS.iter().position(|l| l.id == id).map(Spot::Bone);
-            of_skin.or_else(of_bone).ok_or_else(|| RigError::MissingLandmark(id.clone()))
-        };
+        let spot = |id: &String| Spot::find(id, &skin);
         let faces = half.triangles();
         let mut regions = half.whole_regions();
         // The lining goes with the margin of its lip, so that it never hangs below it, and is grown to the gum behind.
@@ -175,14 +180,10 @@ impl MusclePlan {
         out.offsets.clear();
         out.offsets.push(0);
         out.entries.clear();
-        out.ways.clear();
         let mut moved = vec![Vec3::ZERO; rest.len()];
         for m in &self.bound {
             let path: Vec<Vec3> = m.path.iter().map(mean).collect();
-            let origin = path.first().copied().unwrap_or_default();
             let last = path.last().copied().unwrap_or_default();
-            let before = if path.len() > 1 { path[path.len() - 2] } else { origin };
-            out.ways.push(m.insertion.iter().map(|i| [origin, before, last, place(i)]).collect());
             let pull = m.pull_mm * unit;
             let zones = m.weights.len() / m.vertices.len().max(1);
             let start = out.entries.len();
