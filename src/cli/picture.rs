@@ -6,8 +6,8 @@ use super::{Failure, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::{Frame, Layers, Pipeline};
 use crate::measure::{Landmark, Side, skin_landmarks};
-use crate::render::{Background, Camera, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use crate::motion::{Channel, Pose};
+use crate::render::{Background, Camera, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
 use glam::Vec3;
 use serde_json::json;
 
