@@ -1,6 +1,8 @@
 //! What hangs follows late: the leather of the ears and the flews lag behind the head as damped springs.
 
 use super::{Channel, Pose, Spring};
+use crate::anatomy::ParamTable;
+use crate::math::ops;
 
 /// How a head is built, as far as what hangs on it is concerned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +18,22 @@ pub struct Build {
 impl Default for Build {
     fn default() -> Self {
         Self { ear_hang: 1.0, ear_slack: 0.7, flew_slack: 0.3 }
+    }
+}
+
+impl Build {
+    /// That of a breed; `values`: SI, one for each row of the table. A measure that the table lacks counts as 0.
+    pub fn of(table: &ParamTable, values: &[f32]) -> Self {
+        let value = |id: &str| table.index_of(id).and_then(|row| values.get(row)).copied().unwrap_or(0.0);
+        // The tip looks up by the angle at which the leather leaves the skull, less that of its fold.
+        let ear_hang = -ops::sin(value("ear_lift_deg") - value("ear_fold_deg"));
+        let length = value("ear_length_mm") / value("cranial_length_mm").max(0.01);
+        Self {
+            ear_hang,
+            ear_slack: (0.5 + 0.5 * ear_hang) * (0.4 + 0.6 * length).min(1.0),
+            // 20 mm of flews swing as far as flews do.
+            flew_slack: (0.1 + value("flews_mm") / 0.02).clamp(0.0, 1.0),
+        }
     }
 }
 
