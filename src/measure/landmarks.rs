@@ -2,11 +2,12 @@
 
 use crate::frame::Frame;
 use crate::rig::bone::{Bones, BonesOfHead, LANDMARKS};
+use crate::rig::mouth::TONGUE_TIP;
 use crate::rig::{Deformed, Eye, Place, Rig, deform};
 use glam::Vec3;
 
 /// On which side of the head a landmark lies. Left is the dog's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Side {
     /// The dog's left, +X.
     Left,
@@ -86,9 +87,19 @@ pub fn skin_landmarks(rig: &Rig, values: &[f32], frame: &Frame<'_>) -> Vec<Landm
             }
         }
     }
+    if let Some(&tip) = part("tongue").get(TONGUE_TIP) {
+        add("K52", "tongue tip", Side::Median, tip);
+    }
     let mut head = Deformed::default();
-    rig.deform(values, deform::ROUNDS, &mut head);
-    let eyes = head.eyes.iter().zip([(Side::Left, "eye_L"), (Side::Right, "eye_R")]);
+    // Where the eyes are not shown they are where they are at rest.
+    let eyes = match frame.eyes {
+        [left, right] => [left.eye, right.eye],
+        _ => {
+            rig.deform(values, deform::ROUNDS, &mut head);
+            head.eyes
+        }
+    };
+    let eyes = eyes.iter().zip([(Side::Left, "eye_L"), (Side::Right, "eye_R")]);
     for (eye, (side, name)) in eyes {
         add("K33", "globe centre", side, eye.centre);
         add("K34", "corneal apex", side, apex(eye, part(name)));

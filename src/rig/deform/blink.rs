@@ -34,7 +34,7 @@ const FARTHEST: f32 = 0.1;
 /// How far the upper lid and the lower one turn for a turn of the gaze up or down, and for a raised lid, radians.
 const UPPER_FOLLOWS: f32 = 0.55;
 const LOWER_FOLLOWS: f32 = 0.12;
-const RAISED: f32 = 0.16;
+const RAISED: f32 = 0.3;
 /// The fold's part of it.
 const FOLD_FOLLOWS: f32 = 0.5;
 /// How much of the slit the upper lid closes at most as it follows the gaze down.

@@ -1,5 +1,5 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
-//! the mouth grows longer and thinner, since a tongue keeps its volume (Kier and Smith 1985).
+//! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
 use super::MouthOfHead;
 use super::tongue::{AROUND, SECTIONS};
@@ -43,8 +43,13 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
     let stretch = |s: f32| (1.0 + far * unit / freely * free(s)).max(0.3);
     // Where the incisors are on the way, which is as long as the tongue at rest.
     let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
-    let from = if lift > 0.0 { 0.8 * from } else { from };
+    // Up it goes before the upper lip, down over the lower one.
+    let from = if lift > 0.0 { length + BEND[0] * unit } else { from };
     let is_out = smooth(0.0, 12.0, far);
+    let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
+    let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
+    // Before its tip begins to be round.
+    let narrow = (0..SECTIONS).filter(|&i| along[i] < 0.8).map(half_width).last().unwrap_or(widest);
     let front = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
     let (mut at, mut way) = (middle(0), 0.0);
     for i in 0..SECTIONS {
@@ -59,8 +64,10 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
         at += turn(s, way + 0.5 * step.length()) * step;
         way += step.length();
         let turn = turn(s, way);
-        let wider = 1.0 + WIDER * wide * free(s);
-        let (x, y) = (wider * ops::powf(thick, -0.25), ops::powf(thick, -0.5) / ops::sqrt(wider));
+        // Before the teeth it is as wide as it likes.
+        let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(0.9, 1.15, way / length);
+        let wider = frees * (1.0 + WIDER * wide * free(s));
+        let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
         // It lies on the incisors where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
         let lies = (front.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);

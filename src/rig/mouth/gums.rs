@@ -18,6 +18,9 @@ const FIRST: usize = PARTS[0] + 1;
 /// How far a ridge stands out at most, canonical millimetres.
 const RIDGE: f32 = 0.9;
 
+/// How far the outer wall reaches down from the necks, upper and lower, canonical millimetres: to where the lips begin, so
+/// that nobody looks under it when they part.
+const SKIRT: [f32; 2] = [9.0, 15.0];
 /// Gum over bone at least, canonical millimetres.
 const COVER: f32 = 1.2;
 /// Skin over gum at least, head units.
@@ -174,7 +177,7 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let inwards = (middle - neck).normalize_or(-outwards);
     let mut out = [neck; COLUMNS];
     let gum = [
-        outwards * wall - height(6.0 * unit),
+        outwards * wall - height(if arch.up > 0.0 { SKIRT[1] } else { SKIRT[0] } * unit),
         outwards * wall - height(1.5 * unit),
         outwards * (0.35 * edge + 0.65 * wall) + height(0.75 * margin),
         outwards * edge + height(margin),

@@ -12,6 +12,7 @@ mod tongue;
 pub use arch::Arch;
 pub use bend::bend_tongue;
 pub use gums::{N_RUGAE, Tissue};
+pub use tongue::TONGUE_TIP;
 
 use super::bone::{BoneField, BoneMesh, Targets, targets, teeth};
 use super::implicit::{Implicit, Layer};

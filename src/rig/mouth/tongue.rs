@@ -14,6 +14,8 @@ use glam::{Vec3, vec3};
 pub(super) const SECTIONS: usize = 30;
 /// Places around a half section, from the back's midline to the underside's.
 pub(super) const AROUND: usize = 11;
+/// The tip, a vertex of the tongue's mesh.
+pub const TONGUE_TIP: usize = SECTIONS * AROUND + 1;
 /// Between tongue and teeth, canonical millimetres.
 const GAP: f32 = 1.2;
 /// Between tongue and bone, canonical millimetres: under the palate with its ridges; over the floor where the tongue is

@@ -6,11 +6,13 @@
 use super::rigid::Rigid;
 use super::zones::Neighbours;
 use crate::motion::{Channel, Pose};
+use crate::rig::Proportions;
 use crate::rig::handles::{Handles, NONE};
+use crate::rig::implicit::{Implicit, Layer};
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the corner of the mouth goes, as a part of the mandible's turn: nearer to the upper lip, which is longer there.
-const CORNER: f32 = 0.42;
+const CORNER: f32 = 0.34;
 const ROUNDS: usize = 400;
 
 /// Weight of the mandible's turn for each vertex of the whole mesh; `images`: of the half's vertices.
@@ -23,7 +25,7 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
         }
     };
     // Free: cheek below the arch, throat, lips near their corner.
-    for i in 8..17 {
+    for i in 8..16 {
         for j in 6..10 {
             if i > 10 || j >= 8 {
                 set(h.s[i][j], None);
@@ -31,17 +33,12 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
         }
     }
     for i in 3..17 {
-        for j in 9..15 {
-            let lip = (9..11).contains(&j);
-            let bone = i < 9 || (i < 13 && !lip && j > 11) || (i < 11 && j == 11);
-            let held = match i {
-                // The upper lip's corner is set below.
-                10.. if j == 9 => continue,
-                ..9 => Some(1.0),
-                _ if bone => Some(1.0),
-                _ => None,
-            };
-            set(h.l[i][j], held);
+        // From ring 10 on column 9 is the cheek's.
+        for j in if i < 10 { 9 } else { 10 }..15 {
+            let on_bone = i < 9 || (i < 12 && j > 11) || (i < 11 && j == 11);
+            // Below the hinge skin would go back into the throat, which is full.
+            let weight = if i > 15 { Some(0.0) } else { on_bone.then_some(1.0) };
+            set(h.l[i][j], weight);
         }
     }
     for i in 3..11 {
@@ -55,6 +52,31 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
     }
     set(h.s[10][9], Some(CORNER));
     regions.passage(&held, ROUNDS)
+}
+
+/// How deep the mandible with its lip may lie in its skin, head units: what lies there of tissue.
+const TISSUE: f32 = 0.35;
+/// Longest way out of it, head units.
+const FARTHEST: f32 = 1.2;
+
+/// Moves skin that makes a part of the turn off the mandible, which makes all of it; `weights`: of the turn, `jaw`: the
+/// mandible's place, `surface`: the head at rest.
+pub(super) fn keep_off(
+    weights: &[f32],
+    jaw: &Rigid,
+    (shape, surface): (&Proportions, &Implicit),
+    rest: &[Vec3],
+    at: &mut [Vec3],
+) {
+    for (v, _) in weights.iter().enumerate().filter(|(_, w)| 0.0 < **w && **w < 1.0) {
+        let in_jaw = |p: Vec3| shape.proportional(jaw.back(p));
+        let (d, g) = surface.sample(in_jaw(at[v]), Layer::Lower);
+        if d < -TISSUE {
+            let least = surface.distance(shape.proportional(rest[v]), Layer::Lower).min(-TISSUE);
+            let way = (least - d).clamp(0.0, FARTHEST);
+            at[v] += jaw.direction(shape.direction(g.normalize_or_zero())) * (way * shape.scale);
+        }
+    }
 }
 
 /// The mandible in the head's frame; `hinge`: the middle of both condyles, `unit`: metres of a millimetre of the head with a

@@ -7,8 +7,10 @@ use glam::{Vec3, vec3};
 
 /// How far from the margin a lip follows it, head units of the base head.
 const REACH: f32 = 2.4;
+/// Way of the lower lip for that of the upper one: it is held by the chin.
+const LOWER: f32 = 0.55;
 /// How far a cheek is puffed out around the muzzle's side.
-const PUFF: f32 = 4.2;
+const PUFF: f32 = 5.0;
 /// How much a lip that parts turns outwards for its way up or down.
 const CURL: f32 = 0.35;
 
@@ -30,15 +32,16 @@ impl Lips {
             for i in 3..11 {
                 // It tapers to the corner of the mouth.
                 let taper = smoothstep(10.5, 7.0, i as f32);
-                let mut add = |v: u16, part: f32| {
-                    let w = fade(ways[usize::from(v)], REACH) * taper * part;
+                let mut add = |v: u16, weight: f32| {
+                    let w = weight * taper;
                     if v != NONE && w > 0.0 && !out.iter().any(|(o, _)| *o == u32::from(v)) {
                         out.push((u32::from(v), w));
                     }
                 };
-                (5..15).flat_map(|j| own(i, j)).filter(|&v| v != NONE).for_each(|v| add(v, 1.0));
-                add(lining[i][1], 0.9);
-                add(lining[i][2], 0.25);
+                (5..15).flat_map(|j| own(i, j)).filter(|&v| v != NONE).for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
+                // The lining goes with the margin, so that it never hangs below it.
+                add(lining[i][1], 1.0);
+                add(lining[i][2], 0.9);
             }
             out
         };
@@ -48,7 +51,7 @@ impl Lips {
         let upper = rows(column(9, &s), &h.mu, &|i, j| vec![s(i, j)]);
         let lower = rows(column(9, &l), &h.ml, &|i, j| if j >= 9 { vec![l(i, j)] } else { vec![] });
         let flew = upper.iter().map(|&(v, w)| (v, w * smoothstep(0.0, 1.0, base[v as usize].x))).collect();
-        let middle = [(u32::from(h.s[6][7]), 0.0), (u32::from(h.s[7][7]), 0.0)];
+        let middle = [(u32::from(h.s[7][7]), 0.0), (u32::from(h.s[8][7]), 0.0)];
         let ways = neighbours.ways(base, &middle, PUFF);
         let haired = h.s.iter().flatten().copied().filter(|&v| v != NONE);
         let mut cheek: Vec<(u32, f32)> = haired
@@ -80,7 +83,7 @@ impl Lips {
             }
         };
         push(&self.upper, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, 1.0, CURL * normals[v].z), true);
-        push(&self.lower, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, -1.0, CURL * normals[v].z), true);
+        push(&self.lower, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, -1.0, CURL * normals[v].z) * LOWER, true);
         push(&self.cheek, Channel::CheekPuff, &|v| normals[v], true);
         push(&self.flew, Channel::FlewSway, &|_| Vec3::X, false);
     }

@@ -199,6 +199,9 @@ impl PosePlan {
             for (p, &w) in control.iter_mut().zip(&self.jaw).filter(|(_, w)| **w > 0.0) {
                 *p = jaw::turned(head.hinge, head.unit, pose, w).point(*p);
             }
+            if let Some((shape, surface)) = &head.surface {
+                jaw::keep_off(&self.jaw, &jaw, (shape, surface), &head.rest, control);
+            }
         }
         if let Some((shape, surface)) = &head.surface {
             self.ears.turn(pose, head.unit, &head.rest, (shape, surface), mirror, control);

@@ -6,7 +6,7 @@
 use super::zones::{Neighbours, fade, smoothstep};
 use crate::anatomy::Region;
 use crate::mesh::VertexId;
-use crate::motion::{Kind, MuscleTable};
+use crate::motion::{Kind, Muscle, MuscleTable};
 use crate::rig::bone::{LANDMARKS, Targets};
 use crate::rig::{HalfMesh, Place, RigError};
 use glam::Vec3;
@@ -17,6 +17,10 @@ const BASE_MM: f32 = 0.1;
 const SHARED: f32 = 0.8;
 /// How high skin stands up that is pressed together to nothing, millimetres.
 const THROWN_UP: f32 = 9.0;
+/// Part of a pull into the head that the tissue below takes back.
+const INWARDS: f32 = 0.9;
+/// How much the lining at the corner of the mouth goes with it.
+const CORNER: f32 = 0.7;
 /// Weakest pull that counts.
 const LEAST: f32 = 0.004;
 
@@ -37,6 +41,8 @@ struct Bound {
     gather: f32,
     /// Vertices of the whole mesh that the left one moves, ascending.
     vertices: Vec<u32>,
+    /// Those of the lips and their lining.
+    lips: Vec<u32>,
     /// For each of them and each insertion, how much it is pulled.
     weights: Vec<f32>,
 }
@@ -88,18 +94,24 @@ impl MusclePlan {
         };
         let faces = half.triangles();
         let mut regions = half.whole_regions();
-        // The lining is free at the lip and grown to the gum.
-        let lining: Vec<f32> = (0..base.len())
-            .map(|v| {
-                let own = if v < half.n_half() { v } else { mirror[v] as usize };
-                match half.tags[own].split('.').collect::<Vec<_>>()[..] {
-                    ["mu" | "ml", _, "1"] => 0.9,
-                    ["mu" | "ml", _, "2"] => 0.3,
-                    ["mu" | "ml", ..] => 0.0,
-                    _ => 1.0,
-                }
-            })
-            .collect();
+        // The lining goes with the margin of its lip, so that it never hangs below it, and is grown to the gum behind.
+        let margin = |v: usize| -> Option<(usize, f32)> {
+            let own = if v < half.n_half() { v } else { mirror[v] as usize };
+            // Round the corner it is held back inside.
+            let (lip, part) = match half.tags[own].split('.').collect::<Vec<_>>()[..] {
+                ["mu", row, "1"] => (format!("s.{row}.9"), 1.0),
+                ["mu", row, "2"] => (format!("s.{row}.9"), 0.9),
+                ["ml", row, "1"] => (format!("l.{row}.9"), 1.0),
+                ["ml", row, "2"] => (format!("l.{row}.9"), 0.9),
+                ["mu" | "ml", ..] => return Some((v, 0.0)),
+                _ => return None,
+            };
+            let part = if lip.contains(".9.") || lip.contains(".10.") { part * CORNER } else { part };
+            let lip = if lip == "l.10.9" { "s.10.9" } else { &lip };
+            let lip = half.tags.iter().position(|t| t == lip)?;
+            Some((if v < half.n_half() { lip } else { mirror[lip] as usize }, part))
+        };
+        let margins: Vec<(usize, f32)> = (0..base.len()).map(|v| margin(v).unwrap_or((v, 1.0))).collect();
         regions.resize(base.len(), Region::Cheek);
         let bound = table.muscles.iter().map(|m| {
             let path = m.path.iter().map(|a| a.iter().map(spot).collect()).collect::<Result<Vec<Vec<Spot>>, _>>()?;
@@ -126,14 +138,18 @@ impl MusclePlan {
             let (mut vertices, mut weights) = (Vec::new(), Vec::new());
             for v in 0..base.len() {
                 let own_side = smoothstep(-SHARED, SHARED, base[v].x);
-                let free = looseness(regions[v]) * lining[v] * own_side;
-                let of_zones: Vec<f32> = ways.iter().map(|way| fade(way[v], reach) * free).collect();
+                let (from, part) = margins[v];
+                let free = looseness(regions[from]) * part * own_side;
+                let of_zones: Vec<f32> = ways.iter().map(|way| fade(way[from], reach) * free).collect();
                 if of_zones.iter().any(|&w| w > LEAST) {
                     vertices.push(v as u32);
                     weights.extend(of_zones);
                 }
             }
-            Ok(Bound { kind: m.kind, path, insertion, pull_mm: m.pull_mm, gather: m.gather, vertices, weights })
+            let is_lip = |v: &u32| matches!(regions[*v as usize], Region::UpperLip | Region::LowerLip | Region::Mouth);
+            let lips = vertices.iter().copied().filter(is_lip).collect();
+            let Muscle { kind, pull_mm, gather, .. } = *m;
+            Ok(Bound { kind, path, insertion, pull_mm, gather, vertices, lips, weights })
         });
         Ok(Self { bound: bound.collect::<Result<_, RigError>>()?, mirror: mirror.to_vec() })
     }
@@ -187,7 +203,13 @@ impl MusclePlan {
                         sum += w;
                         most = most.max(w);
                     }
-                    out.entries.push((v, way * (most / sum.max(1e-6) * pull)));
+                    // Skin slides over what lies under it, and does not go into it.
+                    let way = way * (most / sum.max(1e-6));
+                    let n = normals[v as usize];
+                    // A lip's edge looks down, and may rise.
+                    let n = if m.lips.contains(&v) { n.with_y(0.0) } else { n };
+                    let way = way - n * (INWARDS * way.dot(n).min(0.0));
+                    out.entries.push((v, way * pull));
                 }
                 if m.gather > 0.0 {
                     for &(v, d) in &out.entries[start..] {

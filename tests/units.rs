@@ -1,0 +1,156 @@
+//! DogFACS units on real heads: each moves the landmarks that its row names, in that direction and by that much for the
+//! head's size, on every breed, and a unit of one side leaves the other where it is.
+//!
+//! `cargo test --test units -- --nocapture` prints where each landmark goes.
+
+use londra::anatomy::{Breed, ParamTable, library};
+use londra::frame::{Layers, Pipeline};
+use londra::measure::{Side as Where, skin_landmarks};
+use londra::motion::{Activation, Axis, Group, UNITS, JointLimits, MuscleTable, Sides, UnitTable};
+use londra::rig::{Deformed, Rig, deform};
+use glam::Vec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Of every ear type and length of face.
+const BREEDS: [&str; 9] = [
+    "german_shepherd", "labrador", "pug", "borzoi", "bulldog", "beagle", "chihuahua", "saint_bernard", "bull_terrier",
+];
+/// Beyond the row's bounds, millimetres on the 200 mm head and a part of the larger bound: heads differ in more than size.
+const SLACK: (f32, f32) = (0.6, 0.30);
+
+struct World {
+    table: ParamTable,
+    units: UnitTable,
+    limits: JointLimits,
+    pipeline: Pipeline,
+}
+
+type Points = BTreeMap<(String, Where), Vec3>;
+
+impl World {
+    fn new() -> Self {
+        let table = ParamTable::embedded().expect("the table is there");
+        let rig = Arc::new(Rig::embedded(&table).expect("the rig is there"));
+        let muscles = MuscleTable::embedded().expect("the muscles are there");
+        let units = UnitTable::parse("rigs/units.ron", UNITS, &muscles).expect("the units are there");
+        let limits = JointLimits::embedded().expect("the limits are there");
+        let mut pipeline = Pipeline::new(rig, 1).expect("level 1");
+        pipeline.set_layers(Layers::parse("skin,eyes,tongue").expect("layers")).expect("they are there");
+        Self { table, units, limits, pipeline }
+    }
+
+    fn points(&mut self, breed: &Breed, asked: &Activation) -> Points {
+        let resolved = self.units.resolve(asked, |_| {});
+        self.pipeline.set_pose(self.units.pose(&resolved, &self.limits));
+        let rig = self.pipeline.rig().clone();
+        let frame = self.pipeline.update(breed);
+        skin_landmarks(&rig, &breed.values, &frame).into_iter().map(|l| ((l.id, l.side), l.position)).collect()
+    }
+
+    /// Metres of a millimetre of the 200 mm head.
+    fn unit(&self, breed: &Breed) -> f32 {
+        let rig = self.pipeline.rig();
+        let mut head = Deformed::default();
+        rig.deform(&breed.values, deform::ROUNDS, &mut head);
+        rig.of_head(&breed.values, &mut head).unit
+    }
+}
+
+fn along(axis: Axis, d: Vec3) -> f32 {
+    match axis {
+        Axis::X => d.x,
+        Axis::Y => d.y,
+        Axis::Z => d.z,
+    }
+}
+
+#[test]
+fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
+    let mut world = World::new();
+    let units = world.units.units.clone();
+    let mut wrong = Vec::new();
+    for id in BREEDS {
+        let breed = library::breed(&world.table, id).expect(id);
+        let unit_m = world.unit(&breed);
+        let rest = world.points(&breed, &Activation::default());
+        for (number, unit) in units.iter().enumerate() {
+            let mut asked = Activation::default();
+            // A tongue goes to one side only.
+            *asked.get_mut(number) = if unit.group == Group::Tongue { [1.0, 0.0] } else { [1.0; 2] };
+            let posed = world.points(&breed, &asked);
+            let mm = |key: &(String, Where)| (posed[key] - rest[key]) / unit_m;
+            let bounds = |least: f32, most: f32| {
+                let slack = SLACK.0 + SLACK.1 * least.abs().max(most.abs());
+                least - slack..=most + slack
+            };
+            for motion in &unit.landmarks {
+                let keys = [Where::Left, Where::Median].map(|side| (motion.0.clone(), side));
+                let key = keys.into_iter().find(|k| rest.contains_key(k)).unwrap_or_else(|| panic!("{}", motion.0));
+                let value = along(motion.1, mm(&key));
+                let line = format!(
+                    "{id:16} {:9} {} {:?} {value:7.1} of {} to {}",
+                    unit.id, motion.0, motion.1, motion.2, motion.3
+                );
+                println!("{line}");
+                if !bounds(motion.2, motion.3).contains(&value) {
+                    wrong.push(line);
+                }
+            }
+            for gap in &unit.gaps {
+                let key = |id: &String| [Where::Median, Where::Left].map(|s| (id.clone(), s)).into_iter().find(|k| rest.contains_key(k)).expect("there");
+                let (a, b) = (key(&gap.0), key(&gap.1));
+                let value = (posed[&a].distance(posed[&b]) - rest[&a].distance(rest[&b])) / unit_m;
+                let line = format!("{id:16} {:9} {} to {} {value:7.1} of {} to {}", unit.id, gap.0, gap.1, gap.2, gap.3);
+                println!("{line}");
+                if !bounds(gap.2, gap.3).contains(&value) {
+                    wrong.push(line);
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn a_unit_of_one_side_moves_the_other() {
+    let mut world = World::new();
+    let units = world.units.units.clone();
+    let breed = library::breed(&world.table, "german_shepherd").expect("it is there");
+    let rest = world.points(&breed, &Activation::default());
+    for (number, unit) in units.iter().enumerate().filter(|(_, u)| u.sides == Sides::Each && u.group != Group::Tongue) {
+        let mut asked = Activation::default();
+        *asked.get_mut(number) = [1.0, 0.0];
+        let posed = world.points(&breed, &asked);
+        let (mut left, mut right) = (0.0f32, 0.0f32);
+        for (key, p) in &posed {
+            let moved = p.distance(rest[key]) * 1000.0;
+            match key.1 {
+                Where::Left => left = left.max(moved),
+                Where::Right => right = right.max(moved),
+                Where::Median => {}
+            }
+        }
+        println!("{:9} left {left:5.1} mm, right {right:5.1} mm", unit.id);
+        assert!(left > 0.5, "{} moves nothing", unit.id);
+        assert!(right < 0.25 * left, "{}: left {left} mm, right {right} mm", unit.id);
+    }
+}
+
+#[test]
+fn both_sides_together_are_no_mirror_image() {
+    let mut world = World::new();
+    let units = world.units.units.clone();
+    let breed = library::breed(&world.table, "beagle").expect("it is there");
+    for (number, unit) in units.iter().enumerate().filter(|(_, u)| u.sides != Sides::Median && u.id != "AD37") {
+        let mut asked = Activation::default();
+        *asked.get_mut(number) = [1.0; 2];
+        let posed = world.points(&breed, &asked);
+        for ((id, side), p) in posed.iter().filter(|((_, side), _)| *side == Where::Left) {
+            let _ = side;
+            let image = posed[&(id.clone(), Where::Right)];
+            let off = Vec3::new(-image.x, image.y, image.z).distance(*p);
+            assert!(off < 2e-6, "{}: {id} is off by {off} m", unit.id);
+        }
+    }
+}
