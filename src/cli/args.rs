@@ -1,7 +1,7 @@
 //! Commands and options, as clap reads them.
 
 use super::turntable::Pattern;
-use super::values::{self, Ground, Setting, Share};
+use super::values::{self, Ground, Mixture, Setting, Share};
 use crate::coat::Condition;
 use crate::frame::Layers;
 use crate::render::{Dress, Lens, Preset, Samples, View as Direction};
@@ -47,7 +47,7 @@ pub(super) enum Command {
     Sheet(Sheet),
     /// Draw a head that turns once round, as numbered PNG
     Turntable(Turntable),
-    /// Draw what every measure does as PNG
+    /// Draw what every measure, or every unit, does as PNG
     Atlas(Atlas),
     /// Have puppies of two dogs, or random dogs, as breed files
     Breed(Breed),
@@ -59,7 +59,7 @@ pub(super) enum Command {
     Measure(Measure),
     /// Print every landmark's place, and in a view its pixel and whether it is seen
     Landmarks(Landmarks),
-    /// List breeds or parameters
+    /// List breeds, parameters, units, expressions or clips
     List(List),
     /// Find every mistake in breed files
     Check(Check),
@@ -177,6 +177,30 @@ pub(super) struct Scene {
     pub wireframe: Option<Wires>,
 }
 
+/// What the head does.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Motion")]
+pub(super) struct Motion {
+    /// Ask for a DogFACS unit, 0 to 1, with L or R on one side alone; may be repeated, the last one of a unit and side holds
+    #[arg(long = "unit", value_name = "ID[L|R]=VALUE", value_parser = values::unit)]
+    pub units: Vec<Setting>,
+    /// Ask for units in DogFACS notation: codes joined by +, such as 101+12B+EAD103L; A to E are 0.2 to 1
+    #[arg(long, value_name = "CODES")]
+    pub facs: Option<String>,
+    /// Mix in an expression, whole or by a weight of 0 to 1; may be repeated. Without --time as it shows itself best
+    #[arg(long = "expression", value_name = "NAME[=WEIGHT]", value_parser = values::mixed)]
+    pub expressions: Vec<Mixture>,
+    /// Play a clip; may be repeated, the later ones lie over the earlier
+    #[arg(long = "clip", value_name = "NAME")]
+    pub clips: Vec<String>,
+    /// Let it blink, breathe and look about by itself; the same seed gives the same life
+    #[arg(long, value_name = "SEED", num_args = 0..=1, default_missing_value = "0")]
+    pub life: Option<u64>,
+    /// Seconds since clips, expressions and life began, 0 to 3600; without it clips and life are at their beginning
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
+    pub time: Option<f64>,
+}
+
 /// How much hair, and what it is like today.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct Fur {
@@ -217,7 +241,7 @@ impl Fur {
 }
 
 /// How far the lids are closed, left and right.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lids(pub [f32; 2]);
 
 /// Which lines.
@@ -245,6 +269,9 @@ pub(super) struct Target {
     londra render --breed beagle --view side --size 800x600 --background none -o beagle.png\n  \
     londra render --breed pug --view side --preset x-ray -o xray.png\n  \
     londra render --breed pug --at K29 --zoom 8 -o eye.png\n  \
+    londra render --breed labrador --expression fear=0.8 --unit AU101L=1 -o fear.png\n  \
+    londra render --breed beagle --clip head_shake --fps 50 --size 320x320 -o shake.gif\n  \
+    londra render --breed beagle --clip pant --frames 0..30 -o frames_%04d.png\n  \
     londra render --breed borzoi --blend pug=0.5 --view 120,20 --pitch 0 -o - | display")]
 pub(super) struct Render {
     #[command(flatten)]
@@ -266,8 +293,17 @@ pub(super) struct Render {
     /// The landmark in the middle of the picture, as 'londra landmarks' names them; of two, the left one, or with R the right
     #[arg(long, value_name = "ID[L|R]")]
     pub at: Option<String>,
+    /// Draw a film: the frames from A on, before B, of which --fps make a second. OUT has %d or %04d for the frame's number,
+    /// or ends in .gif, or in .mp4 where ffmpeg is installed. Without it a film has what its clips and expressions take
+    #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with = "time")]
+    pub frames: Option<Frames>,
+    /// Frames of a second of film, 1 to 240
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=240))]
+    pub fps: u32,
     #[command(flatten)]
     pub scene: Scene,
+    #[command(flatten)]
+    pub motion: Motion,
     #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]
@@ -299,6 +335,8 @@ pub(super) struct Turntable {
     #[command(flatten)]
     pub scene: Scene,
     #[command(flatten)]
+    pub motion: Motion,
+    #[command(flatten)]
     pub detail: Detail,
     /// The files to write: %d stands for the number of the frame, from 0 on, %04d for one of at least four digits
     #[arg(short, long, value_name = "OUT_%04d.png", value_parser = Pattern::parse)]
@@ -312,11 +350,14 @@ const MOST_FRAMES: i64 = 3600;
 
 /// Width and height, pixels.
 pub(super) type Size = [u32; 2];
+/// Frames of a film.
+pub(super) type Frames = std::ops::Range<u32>;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     londra sheet -o sheet.png\n  \
-    londra sheet --breeds pug,borzoi,mine.ron --views front,side,-60,15 --fit -o three.png")]
+    londra sheet --breeds pug,borzoi,mine.ron --views front,side,-60,15 --fit -o three.png\n  \
+    londra sheet --breeds pug,beagle --expression anger -o anger.png")]
 pub(super) struct Sheet {
     /// Names or files with commas between, or all
     #[arg(long, value_name = "A,B,C|all", default_value = "all", value_delimiter = ',')]
@@ -354,6 +395,8 @@ pub(super) struct Sheet {
     #[command(flatten)]
     pub scene: Scene,
     #[command(flatten)]
+    pub motion: Motion,
+    #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]
     pub target: Target,
@@ -367,18 +410,19 @@ pub(super) struct Sheet {
     Examples:\n  \
     londra atlas -o docs/atlas.png\n  \
     londra atlas --breed pug --group ears --group nose --size 160x160 -o pug.png\n  \
-    londra atlas --split -o docs/atlas.png"
+    londra atlas --split -o docs/atlas.png\n  \
+    londra atlas --units --breed beagle --size 320x320 -o units"
 )]
 pub(super) struct Atlas {
     /// A breed by name, or a file that ends in .ron
     #[arg(long, value_name = "NAME|FILE.ron", default_value = "labrador")]
     pub breed: String,
-    /// Only this group of measures, such as ears or lips-and-jaw; may be repeated
+    /// Only this group of measures, such as ears or lips-and-jaw, or of units, such as upper-face; may be repeated
     #[arg(long, value_name = "GROUP")]
     pub group: Vec<String>,
-    /// Width and height of one head, pixels
-    #[arg(long, value_name = "WxH", default_value = "68x68", value_parser = values::size)]
-    pub size: Size,
+    /// Width and height of one head, pixels; without it 68x68, or 240x240 for units
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<Size>,
     /// Measures beside each other
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=16))]
     pub columns: u32,
@@ -390,6 +434,10 @@ pub(super) struct Atlas {
     /// Write a file for each group, such as atlas_ears.png beside atlas.png
     #[arg(long)]
     pub split: bool,
+    /// Show DogFACS units instead of measures: OUT is a folder, with a file for each unit at 0, 0.5 and 1 from the front and
+    /// at three quarters, and arrows from where landmarks are at rest to where they go
+    #[arg(long, conflicts_with_all = ["split", "columns", "view"])]
+    pub units: bool,
     #[command(flatten)]
     pub target: Target,
 }
@@ -453,10 +501,13 @@ const MOST_DOGS: i64 = 1000;
 #[command(after_help = "Examples:\n  \
     londra export --breed pug -o pug.glb\n  \
     londra export --breed dalmatian --textures 2048 --threads 2 -o dalmatian.glb\n  \
+    londra export --breed labrador --expression yawning -o yawn.glb\n  \
     londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
 pub(super) struct Export {
     #[command(flatten)]
     pub subject: Subject,
+    #[command(flatten)]
+    pub motion: Motion,
     #[command(flatten)]
     pub detail: Detail,
     /// Paint the coat, the leather and the eyes into textures of so many texels a side (a power of two, 256 to 4096), instead of
@@ -473,10 +524,13 @@ pub(super) struct Export {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     londra hash --breed pug\n  \
+    londra hash --breed pug --clip pant --time 1.5\n  \
     londra hash --breed pug --blend borzoi=0.5 --level 2 --threads 8 --json")]
 pub(super) struct Hash {
     #[command(flatten)]
     pub subject: Subject,
+    #[command(flatten)]
+    pub motion: Motion,
     #[command(flatten)]
     pub detail: Detail,
     #[command(flatten)]
@@ -532,7 +586,7 @@ pub(super) struct Landmarks {
 }
 
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  londra list breeds\n  londra list parameters --json")]
+#[command(after_help = "Examples:\n  londra list breeds\n  londra list parameters --json\n  londra list units")]
 pub(super) struct List {
     /// What to list
     pub what: Listed,
@@ -547,6 +601,12 @@ pub(super) enum Listed {
     Breeds,
     /// Measures with their ranges
     Parameters,
+    /// DogFACS units
+    Units,
+    /// Expressions
+    Expressions,
+    /// Clips
+    Clips,
 }
 
 #[derive(Args, Debug)]

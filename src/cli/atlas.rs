@@ -2,7 +2,7 @@
 
 use super::args::{Atlas, Fur};
 use super::rigs::Rigs;
-use super::{Failure, output, picture, values};
+use super::{Failure, output, picture, unit_atlas, values};
 use crate::anatomy::{Breed, ParamSpec, ParamTable};
 use crate::frame::{Frame, Pipeline};
 use crate::render::{Background, Camera, Drawing, Lens, Offscreen, PAPER, Picture, Section, Strip, View, atlas};
@@ -17,9 +17,12 @@ const LEVEL: u32 = 3;
 /// Part of a picture left free around what it shows.
 const MARGIN: f32 = 0.04;
 
+/// Width and height of a picture when nobody says how large, pixels.
+const CELL: [u32; 2] = [68, 68];
+
 /// What of a head a picture is filled with.
 #[derive(Clone, Copy)]
-enum Focus {
+pub(super) enum Focus {
     /// All of it, whatever the measure makes of it.
     Head,
     /// What lies before the eyes.
@@ -36,6 +39,9 @@ enum Focus {
 
 /// Draws each measure on one breed, three heads a measure.
 pub(super) fn run(args: &Atlas) -> Result<(), Failure> {
+    if args.units {
+        return unit_atlas::run(args);
+    }
     output::check_target(&args.target.output, args.target.report.json)?;
     if args.split && output::is_stdout(&args.target.output) {
         return Err(Failure::Use("--split writes several files: name one that ends in .png, not -".into()));
@@ -46,8 +52,13 @@ pub(super) fn run(args: &Atlas) -> Result<(), Failure> {
     let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
     let mut pipeline = Pipeline::new(rig, LEVEL).map_err(Failure::work)?;
     pipeline.set_hair(args.fur.hair.unwrap_or(0) as usize);
-    let mut studio =
-        Studio { pipeline, fur: args.fur, offscreen: picture::offscreen()?, size: args.size, view: args.view };
+    let mut studio = Studio {
+        pipeline,
+        fur: args.fur,
+        offscreen: picture::offscreen()?,
+        size: args.size.unwrap_or(CELL),
+        view: args.view,
+    };
     let (mut sections, mut changes) = (Vec::new(), Vec::new());
     for group in &groups {
         let mut strips = Vec::new();
@@ -100,7 +111,7 @@ fn groups(table: &ParamTable, wanted: &[String]) -> Result<Vec<String>, Failure>
 }
 
 /// `Lips and jaw` as `lips-and-jaw`.
-fn slug(group: &str) -> String {
+pub(super) fn slug(group: &str) -> String {
     group.to_lowercase().replace([' ', '_'], "-")
 }
 
@@ -192,7 +203,7 @@ impl Studio {
 }
 
 /// The points of a head that a picture is filled with, metres. All of them where the eyes are missing.
-fn focused(focus: Focus, frame: &Frame<'_>) -> Vec<Vec3> {
+pub(super) fn focused(focus: Focus, frame: &Frame<'_>) -> Vec<Vec3> {
     let all = frame.parts.iter().flat_map(|part| part.positions.iter().copied());
     let middle = |name: &str| {
         let eye = frame.parts.iter().find(|part| part.topology.name == name && !part.positions.is_empty())?;

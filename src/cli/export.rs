@@ -1,6 +1,7 @@
 //! `londra export`.
 
-use super::args::Export;
+use super::args::{Export, Lids};
+use super::motion::Director;
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::export::{GlbOptions, Textures, to_glb};
@@ -13,6 +14,9 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     pipeline.set_uv(true).map_err(Failure::work)?;
+    let director = Director::new(&args.motion, Lids::default())?;
+    director.tell_overruled();
+    pipeline.set_pose(director.pose(&rigs, &breed));
     pipeline.update(&breed);
     let frame = pipeline.frame();
     let textures = match (args.textures, pipeline.canvas()) {

@@ -1,6 +1,7 @@
 //! `londra hash`.
 
-use super::args::Hash;
+use super::args::{Hash, Lids};
+use super::motion::Director;
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use serde_json::json;
@@ -10,6 +11,9 @@ pub(super) fn run(args: &Hash) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    let director = Director::new(&args.motion, Lids::default())?;
+    director.tell_overruled();
+    pipeline.set_pose(director.pose(&rigs, &breed));
     pipeline.update(&breed);
     let hashes = pipeline.hashes();
     let stages = [

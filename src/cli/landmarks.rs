@@ -75,22 +75,20 @@ struct Look {
     sight: Sight,
     eye: Eyepoint,
     camera: Camera,
-    size: [f32; 2],
+    size: [u32; 2],
 }
 
 impl Look {
     fn new(frame: &Frame<'_>, camera: Camera, size: [u32; 2]) -> Self {
         let (eye, is_point) = camera.eye_in_head();
         let eye = if is_point > 0.0 { Eyepoint::At(eye) } else { Eyepoint::Towards(eye) };
-        Self { sight: Sight::new(frame), eye, camera, size: size.map(|side| side as f32) }
+        Self { sight: Sight::new(frame), eye, camera, size }
     }
 
     fn at(&self, landmark: &Landmark) -> Seen {
         let [width, height] = self.size;
-        // The planes of the nearest and farthest do not move a pixel.
-        let clip = self.camera.clip_from_head(width / height, 1.0).project_point3(landmark.position);
-        let pixel = [(clip.x + 1.0) * 0.5 * width, (1.0 - clip.y) * 0.5 * height];
-        let is_inside = (0.0..width).contains(&pixel[0]) && (0.0..height).contains(&pixel[1]);
+        let pixel = self.camera.pixel(landmark.position, self.size).to_array();
+        let is_inside = (0.0..width as f32).contains(&pixel[0]) && (0.0..height as f32).contains(&pixel[1]);
         Seen { pixel, visible: is_inside && self.sight.is_open(landmark.position, self.eye) }
     }
 }

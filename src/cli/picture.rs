@@ -1,13 +1,14 @@
 //! `londra render` and `londra sheet`.
 
 use super::args::{Render, Scene, Sheet as SheetArgs, Wires};
+use super::motion::Director;
 use super::rigs::Rigs;
-use super::{Failure, output, subject};
+use super::{Failure, film, output, subject};
 use crate::anatomy::Breed;
 use crate::frame::{Frame, Layers, Pipeline};
 use crate::measure::{Landmark, Side, skin_landmarks};
+use crate::motion::Pose;
 use crate::render::{Background, Camera, Drawing, Dress, Gpu, Lens, Offscreen, Picture, Shading, Sheet, View};
-use crate::motion::{Channel, Pose};
 use glam::Vec3;
 use serde_json::json;
 
@@ -21,11 +22,17 @@ pub(super) const MARGIN: f32 = 0.08;
 
 /// Draws one head.
 pub(super) fn render(args: &Render) -> Result<(), Failure> {
+    if film::is_asked_for(args) {
+        return film::run(args);
+    }
     output::check_target(&args.target.output, args.target.report.json)?;
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
+    let director = Director::new(&args.motion, args.scene.lids_closed)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     prepared(&mut pipeline, &args.scene)?;
+    director.tell_overruled();
+    pipeline.set_pose(director.pose(&rigs, &breed));
     let mut offscreen = offscreen()?;
     let rig = pipeline.rig().clone();
     let frame = pipeline.update(&breed);
@@ -48,7 +55,6 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
 pub(super) fn prepared(pipeline: &mut Pipeline, scene: &Scene) -> Result<(), Failure> {
     pipeline.set_layers(layers(scene)).map_err(Failure::work)?;
     pipeline.set_hair(hair(scene, HAIR) as usize);
-    pipeline.set_pose(Pose::default().with_sides(Channel::LidClosed, scene.lids_closed.0));
     Ok(())
 }
 
@@ -87,7 +93,9 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         words(args, &rigs).iter().map(|word| subject::breed(&rigs, word, &args.changes)).collect::<Result<_, _>>()?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     let presets = if args.presets.is_empty() { vec![args.scene.preset] } else { args.presets.clone() };
-    pipeline.set_pose(Pose::default().with_sides(Channel::LidClosed, args.scene.lids_closed.0));
+    let director = Director::new(&args.motion, args.scene.lids_closed)?;
+    director.tell_overruled();
+    let poses: Vec<Pose> = breeds.iter().map(|breed| director.pose(&rigs, breed)).collect();
     let mut offscreen = offscreen()?;
 
     let cell = match args.size {
@@ -109,7 +117,8 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     let strands = |scene: &Scene| if wears_coat { hair(scene, SHEET_HAIR) } else { 0 };
     let most = presets.iter().map(|&preset| strands(&Scene { preset, ..args.scene })).max();
     pipeline.set_hair(most.unwrap_or(0) as usize);
-    for breed in &breeds {
+    for (breed, pose) in breeds.iter().zip(&poses) {
+        pipeline.set_pose(*pose);
         sheet.measure(&pipeline.update(breed));
     }
     for preset in presets {
@@ -121,7 +130,8 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
         (sheet.preset, sheet.background) = (preset, background(&scene));
         (sheet.skin_opacity, sheet.n_strands) = (layers.skin, n_strands);
         sheet.condition = scene.fur.condition();
-        for breed in &breeds {
+        for (breed, pose) in breeds.iter().zip(&poses) {
+            pipeline.set_pose(*pose);
             let name = match args.presets.is_empty() {
                 true => breed.label.clone(),
                 false => format!("{}, {}", breed.label, preset.name()),
@@ -184,6 +194,11 @@ fn landmark(all: &[Landmark], word: &str) -> Result<Vec3, Failure> {
             "there is no landmark '{word}' on the skin; 'londra landmarks' names them, such as K29 or K29R"
         ))
     })
+}
+
+/// How many strands of hair a picture of one head has.
+pub(super) fn hair_of(scene: &Scene) -> u32 {
+    hair(scene, HAIR)
 }
 
 /// How many strands are drawn: those asked for, or so many where no lines lie over the surfaces and the preset has hair.

@@ -1,6 +1,7 @@
 //! `londra turntable`: a head that turns once round, as numbered pictures.
 
 use super::args::Turntable;
+use super::motion::Director;
 use super::picture::{MARGIN, drawing, offscreen, prepared};
 use super::rigs::Rigs;
 use super::{Failure, output, subject};
@@ -34,7 +35,8 @@ impl Pattern {
         Ok(Self { before: before.to_owned(), digits, after: after.to_owned() })
     }
 
-    fn path(&self, frame: u32) -> PathBuf {
+    /// The name of a frame's file.
+    pub(super) fn path(&self, frame: u32) -> PathBuf {
         let Self { before, digits, after } = self;
         PathBuf::from(format!("{before}{frame:0digits$}{after}"))
     }
@@ -46,6 +48,9 @@ pub(super) fn run(args: &Turntable) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     prepared(&mut pipeline, &args.scene)?;
+    let director = Director::new(&args.motion, args.scene.lids_closed)?;
+    director.tell_overruled();
+    pipeline.set_pose(director.pose(&rigs, &breed));
     let mut offscreen = offscreen()?;
     let frame = pipeline.update(&breed);
     let [width, height] = args.size;

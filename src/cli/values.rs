@@ -1,6 +1,6 @@
 //! Words of the command line as values. Each error says what would be right.
 
-use super::args::Lids;
+use super::args::{Frames, Lids};
 use crate::anatomy::{colour, nearest};
 use crate::coat;
 use crate::export::TEXTURE_SIZES;
@@ -21,6 +21,54 @@ pub(super) struct Share {
     pub breed: String,
     pub weight: f32,
 }
+
+/// `NAME` or `NAME=WEIGHT`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Mixture {
+    pub name: String,
+    pub weight: f32,
+}
+
+/// `ID=VALUE` with a value from 0 to 1; which units there are, the table knows.
+pub(super) fn unit(text: &str) -> Result<Setting, String> {
+    let (id, value) = text.split_once('=').ok_or("say ID=VALUE, such as AU101=0.7 or EAD103L=1")?;
+    let value = number(value)?;
+    if !(0.0..=1.0).contains(&value) {
+        return Err(format!("{} is {value}, allowed 0 to 1", id.trim()));
+    }
+    Ok(Setting { id: id.trim().to_owned(), value })
+}
+
+pub(super) fn mixed(text: &str) -> Result<Mixture, String> {
+    let (name, weight) = match text.split_once('=') {
+        Some((name, weight)) => (name, number(weight)?),
+        None => (text, 1.0),
+    };
+    if !(0.0..=1.0).contains(&weight) {
+        return Err(format!("the weight is {weight}, allowed 0 to 1"));
+    }
+    Ok(Mixture { name: name.trim().to_owned(), weight: weight as f32 })
+}
+
+/// Seconds of a motion.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = number(text)?;
+    match (0.0..=3600.0).contains(&seconds) {
+        true => Ok(seconds),
+        false => Err(format!("the time is {seconds}, allowed 0 to 3600 seconds")),
+    }
+}
+
+/// `A..B`: the frames from A on, before B.
+pub(super) fn frames(text: &str) -> Result<Frames, String> {
+    let pair = text.split_once("..").and_then(|(a, b)| Some(a.trim().parse().ok()?..b.trim().parse().ok()?));
+    pair.filter(|frames: &Frames| frames.start < frames.end && frames.len() <= MOST_FRAMES).ok_or_else(|| {
+        format!("say A..B, the first frame and the one behind the last, at most {MOST_FRAMES} of them, such as 0..48")
+    })
+}
+
+/// The longest film.
+pub(super) const MOST_FRAMES: usize = 36_000;
 
 pub(super) fn setting(text: &str) -> Result<Setting, String> {
     let (id, value) = text.split_once('=').ok_or("say ID=VALUE, such as stop_angle_deg=40")?;
@@ -268,6 +316,15 @@ mod tests {
         assert!(hair("hihg").unwrap_err().contains("did you mean high?"));
         assert_eq!(zoom("2.5"), Ok(2.5));
         assert!(zoom("0.5").is_err() && zoom("nan").is_err() && zoom("41").is_err());
+        assert_eq!((frames("0..48"), frames("7..8")), (Ok(0..48), Ok(7..8)));
+        for text in ["", "5", "5..5", "6..5", "-1..5", "0..99999", "0..=5", "a..b"] {
+            assert!(frames(text).is_err(), "{text}");
+        }
+        assert_eq!(unit("AU101=0.7"), Ok(Setting { id: "AU101".into(), value: 0.7 }));
+        assert!(unit("AU101").is_err() && unit("AU101=2").is_err() && unit("AU101=nan").is_err());
+        assert_eq!(mixed("fear=0.5"), Ok(Mixture { name: "fear".into(), weight: 0.5 }));
+        assert_eq!(mixed("fear"), Ok(Mixture { name: "fear".into(), weight: 1.0 }));
+        assert!(mixed("fear=-1").is_err() && seconds("-1").is_err() && seconds("1e9").is_err());
         assert!(pitch("91").is_err() && pitch("x").is_err());
         assert_eq!(angle("180"), Ok(std::f64::consts::PI));
         assert!(angle("-1").is_err() && angle("181").is_err() && angle("nan").is_err());

@@ -40,17 +40,17 @@ impl MouthParts {
             part(&lower, "gums_lower", Material::Gum)?,
             part(&tongue, "tongue", Material::Tongue)?,
         ];
-        Ok(Self { evaluator: Evaluator::new(&parts[0].0), mouth, of_head: MouthOfHead::default(), bent: Vec::new(), parts })
+        Ok(Self {
+            evaluator: Evaluator::new(&parts[0].0),
+            mouth,
+            of_head: MouthOfHead::default(),
+            bent: Vec::new(),
+            parts,
+        })
     }
 
     /// `head`: measures and proportions, where they changed; `unit`: metres of a millimetre of the head with a skull of 200 mm.
-    pub(super) fn shape(
-        &mut self,
-        head: Option<(&Measures, &Proportions)>,
-        pose: &Pose,
-        places: &Places,
-        unit: f32,
-    ) {
+    pub(super) fn shape(&mut self, head: Option<(&Measures, &Proportions)>, pose: &Pose, places: &Places, unit: f32) {
         if let Some((measures, proportions)) = head {
             self.mouth.shape(measures, proportions, &mut self.of_head);
         }

@@ -2,25 +2,47 @@
 //!
 //! Time is an argument everywhere; the same arguments give the same bits.
 
+mod act;
 mod activation;
+mod attention;
 mod channel;
+mod clip;
+mod ease;
+mod expression;
+mod follow;
+mod library;
+mod life;
+mod moment;
 mod muscle;
 mod notation;
+mod player;
 mod pose;
 mod resolve;
 mod rule;
 mod skeleton;
+mod spring;
 mod target;
 mod unit;
 
+pub use act::{Act, Mixed};
 pub use activation::{Activation, Side};
+pub use attention::{Attention, Stimulus};
 pub use channel::Channel;
+pub use clip::{Blend, Clip, Layer, Moved, Track};
+pub use ease::Ease;
+pub use expression::{Expression, Part};
+pub use follow::{Build, Follow};
+pub use library::{CLIPS, EXPRESSIONS, Library};
+pub use life::{Life, Temper};
+pub use moment::Moment;
 pub use muscle::{Anchor, Kind, MUSCLES, Muscle, MuscleTable};
 pub use notation::{Mistake, NotationError};
+pub use player::{Cue, Player};
 pub use pose::Pose;
 pub use resolve::Overruled;
 pub use rule::{Rule, RuleKind};
 pub use skeleton::{ChannelSpec, JointLimits, SKELETON};
+pub use spring::{STEP_SECS, Spring, steps_until};
 pub use target::Target;
 pub use unit::{
     Axis, Cycle, Drive, Gap, Group, LandmarkMotion, Sides, Status, Swing, UNITS, Unit, UnitError, UnitTable,

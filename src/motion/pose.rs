@@ -60,11 +60,11 @@ impl Pose {
         &mut self.muscles[muscle]
     }
 
-    /// Adds another pose, value by value.
-    pub fn add(&mut self, other: &Self) {
+    /// Adds another pose, each value times `weight`.
+    pub fn add(&mut self, other: &Self, weight: f32) {
         let mine = self.channels.iter_mut().chain(&mut self.muscles).flatten();
         for (mine, theirs) in mine.zip(other.channels.iter().chain(&other.muscles).flatten()) {
-            *mine += theirs;
+            *mine += weight * theirs;
         }
     }
 

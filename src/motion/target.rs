@@ -17,6 +17,14 @@ impl Target {
         Channel::from_id(id).map(Self::Channel).or_else(|| muscles.index_of(id).map(Self::Muscle))
     }
 
+    /// Its name; empty for a muscle that the table does not have.
+    pub fn id(self, muscles: &MuscleTable) -> &str {
+        match self {
+            Self::Channel(channel) => channel.id(),
+            Self::Muscle(muscle) => muscles.muscles.get(muscle).map_or("", |muscle| muscle.id.as_str()),
+        }
+    }
+
     /// Whether there is but one for the head.
     pub fn is_median(self) -> bool {
         matches!(self, Self::Channel(channel) if channel.is_median())

@@ -3,7 +3,7 @@
 //! After Waller, Caeiro, Peirce, Burrows, Kaminski 2013, "DogFACS: The Dog Facial Action Coding System". Which muscle a code
 //! belongs to is theirs where a row says sourced; how far what moves, and which channel it takes, is ours.
 
-use super::{Activation, JointLimits, MotionError, MuscleTable, Pose, Rule, Side, Target, rule};
+use super::{Activation, MotionError, MuscleTable, Pose, Rule, Side, Target, rule};
 use crate::anatomy::nearest;
 use crate::math::ops;
 use serde::{Deserialize, Serialize};
@@ -309,22 +309,8 @@ impl UnitTable {
         nearest(word, names).into_iter().map(str::to_owned).collect()
     }
 
-    /// The pose of units that have been resolved, inside the limits: the sum of what they drive, of muscles and some channels
-    /// the largest. Rhythms stand still. Allocates nothing.
-    #[must_use]
-    pub fn pose(&self, resolved: &Activation, limits: &JointLimits) -> Pose {
-        limits.clamped(&self.drive(resolved))
-    }
-
-    /// The same at a time, in seconds, with the rhythms going.
-    #[must_use]
-    pub fn pose_at(&self, resolved: &Activation, time: f64, limits: &JointLimits) -> Pose {
-        let mut pose = self.drive(resolved);
-        self.swing(resolved, time, &mut pose);
-        limits.clamped(&pose)
-    }
-
-    /// What the units drive, not yet inside the limits.
+    /// What units drive that have been resolved, not yet inside the limits: the sum of their drives, of muscles and some
+    /// channels the largest.
     pub(super) fn drive(&self, resolved: &Activation) -> Pose {
         // Of wishes in one direction the largest may count, but two directions always work against each other.
         let (mut pose, mut against) = (Pose::default(), Pose::default());
@@ -346,7 +332,7 @@ impl UnitTable {
                 }
             }
         }
-        pose.add(&against);
+        pose.add(&against, 1.0);
         pose
     }
 

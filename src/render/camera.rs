@@ -236,6 +236,15 @@ impl Camera {
         self.distance = round.fold(1e-3, f32::max);
     }
 
+    /// Where a point (metres, head) comes to lie in a picture of that size: pixels from its top left corner, rightwards and
+    /// downwards; may lie outside.
+    pub fn pixel(&self, point: Vec3, [width, height]: [u32; 2]) -> Vec2 {
+        let size = Vec2::new(width as f32, height as f32);
+        // The planes of the nearest and farthest do not move a pixel.
+        let clip = self.clip_from_head(size.x / size.y, 1.0).project_point3(point);
+        Vec2::new((clip.x + 1.0) * 0.5, (1.0 - clip.y) * 0.5) * size
+    }
+
     /// Puts a point (metres, head) into the middle of the picture; the camera keeps its direction and distance.
     pub fn look_at(&mut self, point: Vec3) {
         self.target = self.world_from_head() * point;

@@ -3,6 +3,7 @@
 //! Objects by lifetime: [`Gpu`] once per run; [`Painter`] (pipelines and the head's buffers) once per device;
 //! [`Targets`] once per picture size; a [`Camera`] and a [`Drawing`] for each picture.
 
+mod arrow;
 mod atlas;
 pub mod camera;
 mod globals;
@@ -27,6 +28,7 @@ mod targets;
 mod text;
 mod wire_pass;
 
+pub use arrow::arrow;
 pub use atlas::{PAPER, Section, Strip, atlas};
 pub use camera::{Camera, Lens, View, ViewError};
 pub use gpu::{Gpu, GpuError};

@@ -46,7 +46,8 @@ pub(super) fn draw(picture: &mut Picture, text: &str, x: f32, y: f32, height: f3
     }
 }
 
-fn blend(pixel: &mut [u8], colour: [u8; 3], coverage: f32) {
+/// Lays a colour over a pixel.
+pub(super) fn blend(pixel: &mut [u8], colour: [u8; 3], coverage: f32) {
     let below = f32::from(pixel[3]) / 255.0 * (1.0 - coverage);
     let alpha = coverage + below;
     if alpha <= 0.0 {

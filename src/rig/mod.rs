@@ -25,7 +25,7 @@ pub use control::{ControlError, HalfMesh, HalfRings, LimitRow};
 pub use eye::Eye;
 pub use handles::{EAR_RINGS, Handles};
 pub use landmarks::{Place, SkinLandmark};
-pub use posing::{PosePlan, Places, Rigid};
+pub use posing::{Places, PosePlan, Rigid};
 pub use proportions::{EarProportions, Measures, Proportions};
 pub use uv::{Chart, HEAD_UV, HalfUv};
 

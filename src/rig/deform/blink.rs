@@ -123,7 +123,8 @@ pub fn place(
         // The middle of a lid goes farthest; what looks down does not shut the eye.
         let middle = ops::sin(core::f32::consts::PI * (k % 6) as f32 / 6.0);
         let [own, other] = [h.er[k], h.er[12 - k]].map(|v| hinge.turned(rest[usize::from(v)]).angle);
-        let follows = if is_upper { UPPER_FOLLOWS * lids.lift + RAISED * lids.raised } else { LOWER_FOLLOWS * lids.lift };
+        let follows =
+            if is_upper { UPPER_FOLLOWS * lids.lift + RAISED * lids.raised } else { LOWER_FOLLOWS * lids.lift };
         let least = -MOST_DOWN * (own - other).abs();
         let turn = middle * if is_upper { follows.max(least) } else { follows };
         for (row, part, above) in [(&h.of, FOLD_FOLLOWS, ABOVE[2]), (&h.er, 1.0, ABOVE[1]), (&h.ei, 1.0, ABOVE[0])] {

@@ -23,22 +23,16 @@ const OVER: f32 = 1.5;
 pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Vec3>) {
     out.clear();
     out.extend_from_slice(&mouth.tongue);
-    let [far, lift, curl, side, wide] = [
-        Channel::TongueOut,
-        Channel::TongueLift,
-        Channel::TongueCurl,
-        Channel::TongueSide,
-        Channel::TongueWide,
-    ]
-    .map(|c| pose.median(c));
+    let [far, lift, curl, side, wide] =
+        [Channel::TongueOut, Channel::TongueLift, Channel::TongueCurl, Channel::TongueSide, Channel::TongueWide]
+            .map(|c| pose.median(c));
     if [far, lift, curl, side, wide].iter().all(|v| *v == 0.0) {
         return;
     }
     let rest = &mouth.tongue;
     let middle = |i: usize| 0.5 * (rest[i * AROUND] + rest[i * AROUND + AROUND - 1]).with_x(0.0);
     let smooth = super::tongue::smoothstep;
-    let steps: [Vec3; SECTIONS] =
-        std::array::from_fn(|i| if i == 0 { Vec3::ZERO } else { middle(i) - middle(i - 1) });
+    let steps: [Vec3; SECTIONS] = std::array::from_fn(|i| if i == 0 { Vec3::ZERO } else { middle(i) - middle(i - 1) });
     let length: f32 = steps.iter().map(|d| d.length()).sum::<f32>().max(1e-5);
     let mut along = [0.0; SECTIONS];
     for i in 1..SECTIONS {

@@ -138,7 +138,9 @@ fn turns(ear: &Rest<'_>, &[.., turn, back, out, bend, sway]: &[f32; 8], ring: us
     let of = |angle: f32| (angle * part).to_radians();
     // What hangs may still swing.
     let [bend, sway] = [bend, sway].map(|a| (a * second).to_radians());
-    Mat3::from_rotation_z(-of(out) - sway) * Mat3::from_rotation_x(-of(back) - bend) * Mat3::from_axis_angle(ear.up, of(turn))
+    Mat3::from_rotation_z(-of(out) - sway)
+        * Mat3::from_rotation_x(-of(back) - bend)
+        * Mat3::from_axis_angle(ear.up, of(turn))
 }
 
 /// The least shift that brings the deepest of these vertices off the head, metres; none where it lay as deep at rest.

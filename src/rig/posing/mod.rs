@@ -181,7 +181,8 @@ impl PosePlan {
             let before = normals.clone();
             for (v, n) in normals.iter_mut().enumerate() {
                 let ring = self.neighbours.of(VertexId(v as u32));
-                let mean = ring.iter().map(|&r| before[r as usize].normalize_or_zero()).sum::<Vec3>() / ring.len() as f32;
+                let mean =
+                    ring.iter().map(|&r| before[r as usize].normalize_or_zero()).sum::<Vec3>() / ring.len() as f32;
                 *n = before[v].normalize_or_zero() + mean;
             }
         }

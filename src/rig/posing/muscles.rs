@@ -121,8 +121,11 @@ impl MusclePlan {
         let bound = table.muscles.iter().map(|m| {
             let path = m.path.iter().map(|a| a.iter().map(spot).collect()).collect::<Result<Vec<Vec<Spot>>, _>>()?;
             let insertion = m.insertion.iter().map(spot).collect::<Result<Vec<Spot>, _>>()?;
-            let zones: Vec<Spot> =
-                if m.kind == Kind::Chewing { m.belly.iter().map(spot).collect::<Result<_, _>>()? } else { insertion.clone() };
+            let zones: Vec<Spot> = if m.kind == Kind::Chewing {
+                m.belly.iter().map(spot).collect::<Result<_, _>>()?
+            } else {
+                insertion.clone()
+            };
             let reach = m.reach_mm * BASE_MM;
             let ways: Vec<Vec<f32>> = zones
                 .iter()

@@ -15,8 +15,13 @@ pub(super) struct Neighbours {
 impl Neighbours {
     pub(super) fn new(mesh: &DedgeMesh) -> Self {
         let (mut offsets, mut list) = (vec![0], Vec::new());
-        let mut pairs: Vec<(u32, u32)> =
-            mesh.indices().as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a), (b, a), (c, b), (a, c)]).collect();
+        let mut pairs: Vec<(u32, u32)> = mesh
+            .indices()
+            .as_chunks::<3>()
+            .0
+            .iter()
+            .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a), (b, a), (c, b), (a, c)])
+            .collect();
         pairs.sort_unstable();
         pairs.dedup();
         let mut pairs = pairs.into_iter().peekable();
