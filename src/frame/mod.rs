@@ -14,6 +14,7 @@ mod skin;
 mod uv;
 mod values;
 mod whiskers;
+mod wrinkles;
 
 pub use canvas::Canvas;
 pub use eyeball::Eyeball;

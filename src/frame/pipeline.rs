@@ -16,6 +16,7 @@ use super::skeleton::Skeleton;
 use super::uv::Uv;
 use super::values::Values;
 use super::whiskers::WhiskerParts;
+use super::wrinkles::wrinkle;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Groom, Root};
@@ -28,6 +29,9 @@ use std::sync::Arc;
 
 /// Deepest level of subdivision that a pipeline makes.
 pub const MAX_LEVEL: u32 = 5;
+
+/// The level from which on vertices are dense enough for wrinkles.
+const WRINKLED: u32 = 3;
 
 /// A head unit of the base head, metres.
 const CENTIMETRE: f32 = 0.01;
@@ -61,6 +65,10 @@ pub struct Pipeline {
     control_leathers: Vec<Vec3>,
     control_bare: Vec<Vec3>,
     control_surface: Vec<Vec3>,
+    /// How much the skin is pressed together, at control vertices and on the refined skin.
+    pressed: [Vec<Vec3>; 2],
+    /// Whether the last frame's skin has more form than its control positions tell.
+    is_wrinkled: bool,
     parts: [Values; 4],
     eyelids: EyelidParts,
     /// Left and right.
@@ -122,6 +130,8 @@ impl Pipeline {
             control_leathers: vec![Vec3::ZERO; n],
             control_bare: vec![Vec3::ZERO; n],
             control_surface: vec![Vec3::ZERO; n],
+            pressed: [vec![Vec3::ZERO; n], Vec::new()],
+            is_wrinkled: false,
             parts,
             eyelids: EyelidParts::new(&rig)?,
             eyeballs: Default::default(),
@@ -331,7 +341,7 @@ impl Pipeline {
             parts: self.shown().map(Values::part).collect(),
             control: &self.deformed.control,
             control_indices: self.rig.mesh().indices(),
-            plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
+            plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0 && !self.is_wrinkled),
             whiskers: if self.layers.whiskers { &self.whiskers.whiskers } else { &[] },
             eyes: if self.layers.eyes { &self.eyeballs } else { &[] },
             coat: self.coat(),
@@ -367,8 +377,16 @@ impl Pipeline {
     /// `is_other`: whether the values changed, not the pose alone.
     fn shape(&mut self, values: &[f32], is_other: bool) {
         let [skin, cap, left, right] = &mut self.parts;
-        let control = &self.deformed.control;
-        self.evaluator.evaluate_into(&self.plan, control, &mut skin.positions, &mut skin.normals);
+        self.evaluator.evaluate_into(&self.plan, &self.deformed.control, &mut skin.positions, &mut skin.normals);
+        let pressed = &mut self.pressed;
+        self.is_wrinkled = self.level >= WRINKLED && self.rig.pressed(values, &self.pose, &mut self.deformed, &mut pressed[0]);
+        if self.is_wrinkled {
+            let [control, refined] = pressed;
+            refined.resize(self.plan.n_vertices(), Vec3::ZERO);
+            self.evaluator.evaluate_attribute(&self.plan, control, refined);
+            let size = self.rig.of_head(values, &mut self.deformed).unit / 0.001;
+            wrinkle(skin, refined, &self.deformed.places.head.turn, size);
+        }
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
         place_cap(&self.plan, &skin.positions, cap);

@@ -17,6 +17,17 @@ pub enum Kind {
     Chewing,
 }
 
+/// Where the skin that a muscle presses together lies in wrinkles, at right angles to its fibres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Wrinkles {
+    /// Across the bridge of the nose and the muzzle.
+    Nose,
+    /// Over the brow and the forehead.
+    Brow,
+    /// Behind the corner of the mouth.
+    Cheek,
+}
+
 /// A landmark, or the mean of several.
 pub type Anchor = Vec<String>;
 
@@ -45,6 +56,9 @@ pub struct Muscle {
     /// How much the skin between is thrown up where it is pressed together, 0 to 1.
     #[serde(default)]
     pub gather: f32,
+    /// Where that skin lies in wrinkles.
+    #[serde(default)]
+    pub wrinkles: Option<Wrinkles>,
     /// Lines of landmarks along which its fibres are drawn; without any, from its path to each insertion.
     #[serde(default)]
     pub drawn: Vec<Vec<Anchor>>,

@@ -235,6 +235,12 @@ impl PosePlan {
         (eyes, Places { head: place, mandible: place.after(&jaw), jaw })
     }
 
+    /// See [`super::Rig::pressed`].
+    pub(super) fn pressed(&self, head: &OfHead, pose: &Pose, out: &mut [Vec3]) -> bool {
+        let pose = &self.limits.clamped(pose);
+        self.muscles.press(&head.pulls, |m| pose.muscle(m), out)
+    }
+
     /// Positions of the muscles' straps on a posed head.
     pub(super) fn straps(
         &self,
