@@ -13,6 +13,9 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
+    if args.motion.is_asked_for() {
+        pipeline.set_layers(pipeline.layers().with_open_mouth()).map_err(Failure::work)?;
+    }
     pipeline.set_uv(true).map_err(Failure::work)?;
     let director = Director::new(&args.motion, Lids::default())?;
     director.tell_overruled();

@@ -49,6 +49,12 @@ impl Layers {
     pub const NONE: Layers =
         Layers { skin: 0.0, eyes: false, whiskers: false, muscles: false, bone: false, teeth: false, mouth: false, tongue: false };
 
+    /// The same and what is seen in an open mouth.
+    #[must_use]
+    pub const fn with_open_mouth(self) -> Self {
+        Self { teeth: true, mouth: true, tongue: true, ..self }
+    }
+
     /// From a list with commas between: `bone,teeth,skin=0.3`. What is not named is not there.
     ///
     /// # Errors
