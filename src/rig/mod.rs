@@ -18,6 +18,7 @@ pub mod mouth;
 mod pose;
 mod primitives;
 mod proportions;
+pub mod touch;
 mod uv;
 pub mod whiskers;
 
