@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub const UNITS: &str = include_str!("../../rigs/units.ron");
 
 /// What part of the head a unit moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Group {
     /// Brows and lids.
