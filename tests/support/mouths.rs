@@ -2,10 +2,9 @@
 
 use glam::Vec3;
 use londra::anatomy::{Breed, ParamTable};
-use londra::frame::Pipeline;
+use londra::frame::{Layers, Pipeline};
 use londra::motion::JointLimits;
 use londra::rig::bone::{Bones, BonesOfHead};
-use londra::rig::mouth::{Mouth, MouthOfHead};
 use londra::rig::touch::{Body, Head, LipRows, Lips, Swept};
 use londra::rig::{Eye, Rig};
 use std::sync::Arc;
@@ -18,7 +17,6 @@ pub struct Maker {
     rig: Arc<Rig>,
     pipeline: Pipeline,
     pub bones: Bones,
-    mouth: Mouth,
     pub tongue_indices: Vec<u32>,
     pub rows: LipRows,
     pub weights: Vec<f32>,
@@ -29,8 +27,8 @@ pub struct Maker {
 pub struct Shape {
     /// Bones and teeth.
     pub bones: BonesOfHead,
-    /// Gums and tongue.
-    pub mouth: MouthOfHead,
+    /// The tongue as it is drawn.
+    pub tongue: Vec<Vec3>,
     /// The refined skin.
     pub skin: Vec<Vec3>,
     /// Eyes.
@@ -40,8 +38,6 @@ pub struct Shape {
 impl Maker {
     /// For a table and its rig.
     pub fn new(table: &Arc<ParamTable>, rig: &Arc<Rig>) -> Maker {
-        let mouth = Mouth::default();
-        let [_, _, tongue] = mouth.meshes().unwrap_or_else(|e| panic!("{e}"));
         let rows = LipRows::new(rig);
         let mut weights = vec![0.0; rig.mesh().n_vertices()];
         for row in &rows.lower {
@@ -54,13 +50,18 @@ impl Maker {
                 weights[row[place] as usize] = weight;
             }
         }
+        let mut pipeline = Pipeline::new(rig.clone(), 3).unwrap_or_else(|e| panic!("{e}"));
+        let layers = Layers::parse("skin,eyes,tongue").unwrap_or_else(|e| panic!("{e}"));
+        pipeline.set_layers(layers).unwrap_or_else(|e| panic!("{e}"));
+        let frame = pipeline.frame();
+        let tongue = frame.parts.iter().find(|p| p.topology.name == "tongue").expect("it is shown");
+        let tongue_indices = tongue.topology.indices.clone();
         Maker {
             table: table.clone(),
             rig: rig.clone(),
-            pipeline: Pipeline::new(rig.clone(), 3).unwrap_or_else(|e| panic!("{e}")),
+            pipeline,
             bones: Bones::embedded().unwrap_or_else(|e| panic!("{e}")),
-            mouth,
-            tongue_indices: tongue.indices().to_vec(),
+            tongue_indices,
             rows,
             weights,
             limits: JointLimits::embedded().unwrap_or_else(|e| panic!("{e}")),
@@ -72,10 +73,10 @@ impl Maker {
         let frame = self.pipeline.update(breed);
         let skin = frame.parts[0].positions.to_vec();
         let eyes = std::array::from_fn(|side| frame.eyes[side].eye);
-        let mut out = Shape { bones: BonesOfHead::default(), mouth: MouthOfHead::default(), skin, eyes };
+        let tongue = frame.parts.iter().find(|p| p.topology.name == "tongue").expect("it is shown");
+        let mut out = Shape { bones: BonesOfHead::default(), tongue: tongue.positions.to_vec(), skin, eyes };
         let (measures, proportions) = (self.rig.measures(&breed.values), self.rig.proportions(&breed.values));
         self.bones.shape(&measures, &proportions, &mut out.bones);
-        self.mouth.shape(&measures, &proportions, &mut out.mouth);
         out
     }
 
@@ -84,7 +85,7 @@ impl Maker {
         Head {
             bones: &self.bones,
             of_head: &shape.bones,
-            tongue: Body { at: &shape.mouth.tongue, indices: &self.tongue_indices },
+            tongue: Body { at: &shape.tongue, indices: &self.tongue_indices },
             eyes: &shape.eyes,
             lips: Lips { rows: &self.rows, at: &shape.skin, weights: &self.weights },
         }

@@ -7,7 +7,7 @@ use crate::rig::lanes::{F8, P8};
 use glam::Vec3;
 
 /// Newton steps, and how far one goes at most, canonical millimetres.
-const STEPS: usize = 5;
+const STEPS: usize = 16;
 const CAP: f32 = 3.0;
 
 /// Moves points that are nearer than `least` metres to the skull's bone, or inside, out of it by the nearest way. Others keep

@@ -18,9 +18,9 @@ pub mod table;
 
 pub use bone::{keep_off_mandible, keep_off_skull};
 pub use globe::keep_off_eye;
-pub use motion::{Follow, Joints, Moved, Params, Travel};
+pub use motion::{Follow, Joints, Moved, Params, Swing, Travel};
 pub use parts::{Head, LipRows, LipVertex, Lips, Part, Span, Spheres};
-pub use resolve::{Resolution, TongueShift, free_lips, free_tongue, least_gape};
+pub use resolve::{Resolution, TongueShift, free_jaw, free_lips, free_tongue, least_gape};
 pub use spheres::{Body, Fit, Sphere};
 pub use swept::{Group, Stray, Swept, Touching};
 pub use table::{Contact, Pair, Pairing, Table};

@@ -19,13 +19,8 @@ pub struct Params(pub [f32; AXES]);
 
 impl Params {
     /// The channels of a pose that the parameters come from.
-    pub const CHANNELS: [Channel; AXES] = [
-        Channel::JawGape,
-        Channel::JawProtrusion,
-        Channel::JawSlide,
-        Channel::TongueOut,
-        Channel::TongueLift,
-    ];
+    pub const CHANNELS: [Channel; AXES] =
+        [Channel::JawGape, Channel::JawProtrusion, Channel::JawSlide, Channel::TongueOut, Channel::TongueLift];
 
     /// Of a pose; `unit`: a canonical millimetre of the head, metres. What is no number is at rest.
     pub fn of(pose: &Pose, unit: f32) -> Self {
@@ -140,12 +135,28 @@ impl Travel {
     ///
     /// With p and q from the hinge, R a turn and s the shift, the distance is |R(a g) p + a s - R(b g) q - b s|, which is
     /// |R((a - b) g) p - q + (a - b) R(-b g) s|: what both take part in does not count, and either arm will do.
-    pub fn apart(&self, other: &Travel, middle: &Params, half: &Params) -> f32 {
-        let [gape, protrusion, slide, ..] = half.0;
-        let shift = ops::hypot(protrusion, slide);
-        let most = ops::hypot(middle.0[1], middle.0[2]) + shift;
-        let turn = (self.arm.min(other.arm) + most) * gape;
-        self.own + other.own + (self.jaw - other.jaw).abs() * (turn + shift)
+    pub fn apart(&self, other: &Travel, swing: &Swing) -> f32 {
+        let turn = (self.arm.min(other.arm) + swing.most) * swing.gape;
+        self.own + other.own + (self.jaw - other.jaw).abs() * (turn + swing.shift)
+    }
+}
+
+/// What the jaw does in a box of parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Swing {
+    /// How far it turns from the middle.
+    gape: f32,
+    /// How far it shifts from the middle.
+    shift: f32,
+    /// How far it is shifted at most.
+    most: f32,
+}
+
+impl Swing {
+    /// Of the box with that middle and those half widths.
+    pub fn new(middle: &Params, half: &Params) -> Self {
+        let shift = ops::hypot(half.0[1], half.0[2]);
+        Self { gape: half.0[0], shift, most: ops::hypot(middle.0[1], middle.0[2]) + shift }
     }
 }
 
@@ -265,7 +276,7 @@ mod tests {
             let joints = joints();
             let (from, to) = (joints.at(middle), joints.at(at));
             let [of_a, of_b] = [a, b].map(|(follow, p)| joints.travel(follow, p, &from, &half));
-            let bound = of_a.apart(&of_b, &middle, &half);
+            let bound = of_a.apart(&of_b, &Swing::new(&middle, &half));
             let apart = |moved: &Moved| moved.carry(a.0, a.1).distance(moved.carry(b.0, b.1));
             let change = (apart(&from) - apart(&to)).abs();
             assert!(change <= bound + 1e-6, "{change} over {bound}: {a:?} {b:?}");

@@ -48,11 +48,11 @@ impl Part {
     pub const fn fit(self) -> Fit {
         match self {
             Part::UpperTeeth | Part::LowerTeeth => Fit { grow: 0.3, miss: 0.45, most: 32 },
-            Part::UpperJaw => Fit { grow: 1.0, miss: 0.5, most: 120 },
-            Part::Mandible => Fit { grow: 1.0, miss: 0.5, most: 200 },
+            Part::UpperJaw => Fit { grow: 1.0, miss: 0.48, most: 120 },
+            Part::Mandible => Fit { grow: 1.0, miss: 0.48, most: 200 },
             Part::Eyes => Fit { grow: 0.2, miss: 0.0, most: 2 },
             Part::UpperLip | Part::LowerLip => Fit { grow: LIP, miss: 0.0, most: usize::MAX },
-            Part::Tongue => Fit { grow: 0.6, miss: 0.5, most: 90 },
+            Part::Tongue => Fit { grow: 0.6, miss: 0.48, most: 90 },
         }
     }
 
@@ -104,10 +104,7 @@ impl LipRows {
             let right = left[1..].iter().rev().map(|&v| rig.image(v as usize) as u32);
             right.chain(left.iter().copied()).collect()
         };
-        Self {
-            upper: [row(&|i| s[i][9]), row(&|i| mu[i][1])],
-            lower: [row(&|i| l[i][9]), row(&|i| ml[i][1])],
-        }
+        Self { upper: [row(&|i| s[i][9]), row(&|i| mu[i][1])], lower: [row(&|i| l[i][9]), row(&|i| ml[i][1])] }
     }
 }
 
@@ -329,7 +326,8 @@ fn crowns(at: &[Vec3], upper: bool, fit: Fit, out: &mut Vec<Sphere>) -> Fit {
     let n_left = at.len() / 2 / teeth::TOOTH_VERTICES;
     let per_tooth = indices.len() / (2 * n_left).max(1);
     let mut kept = fit;
-    for (tooth, (at, indices)) in at.chunks(teeth::TOOTH_VERTICES).zip(indices.chunks(per_tooth)).take(n_left).enumerate()
+    for (tooth, (at, indices)) in
+        at.chunks(teeth::TOOTH_VERTICES).zip(indices.chunks(per_tooth)).take(n_left).enumerate()
     {
         let first = (tooth * teeth::TOOTH_VERTICES) as u32;
         let indices: Vec<u32> = indices.iter().map(|v| v - first).collect();

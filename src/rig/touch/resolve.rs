@@ -1,7 +1,8 @@
 //! What is done about contacts: lips go outwards, off the teeth; the tongue is lifted, lowered or made narrow between them;
 //! the jaw closes no farther than teeth let it.
 //!
-//! Only what is deeper than at rest counts: a dog at rest is as it was bred, and a pose at rest changes no bit.
+//! Only what is deeper than as the dog was bred counts, at rest and while its jaw opens straight: a pose at rest changes no
+//! bit, and teeth that shear past each other do not keep a mouth open.
 
 use super::motion::{Follow, Moved, Params};
 use super::parts::{Part, Spheres};
@@ -132,7 +133,11 @@ fn knots(along: f32) -> ([usize; 2], f32) {
 }
 
 /// Rounds of finding contacts of the tongue and pushing.
-const TONGUE_ROUNDS: usize = 4;
+const TONGUE_ROUNDS: usize = 8;
+/// Most that it gives way in a round, canonical millimetres.
+const TONGUE_STEP: f32 = 1.5;
+/// What lies nearer to the tongue's middle, as a part of its half width, gives way by no narrowing.
+const NARROWS: f32 = 0.3;
 /// How often what one place of the tongue does is shared with its neighbours.
 const SMOOTH: usize = 2;
 
@@ -167,7 +172,7 @@ pub fn free_tongue(
             let beyond = swept.beyond(contact);
             if beyond > enough {
                 deepest = deepest.max(beyond);
-                push.add(demand_of_tongue(swept, moved, &touching.centres, contact, up, beyond));
+                push.add(demand_of_tongue(swept, moved, &touching.centres, contact, up));
             }
         }
         if push.is_empty() || round == TONGUE_ROUNDS {
@@ -175,8 +180,11 @@ pub fn free_tongue(
         }
         push.solve(x);
         let mut shift = TongueShift::default();
+        // Demands that contradict each other ask for ever more.
+        let most = TONGUE_STEP * spheres.unit;
         for k in 0..KNOTS {
-            (shift.narrow[k], shift.lift[k]) = (x[k].max(0.0), x[KNOTS + k]);
+            shift.narrow[k] = x[k].clamp(0.0, most);
+            shift.lift[k] = x[KNOTS + k].clamp(-most, most);
         }
         even(&mut shift);
         for k in spheres.of(Part::Tongue) {
@@ -194,28 +202,24 @@ pub fn free_tongue(
     }
 }
 
-/// What a contact asks of the tongue. To the sides it gives way by getting narrow, where its surface, not its middle, counts;
-/// up and down as a whole.
-fn demand_of_tongue(
-    swept: &Swept,
-    moved: &Moved,
-    centres: &[Vec3],
-    contact: &Contact,
-    up: Vec3,
-    beyond: f32,
-) -> Demand {
+/// What a contact asks of the tongue: to get narrow, or to go over a lower tooth or under an upper one, whichever is less.
+fn demand_of_tongue(swept: &Swept, moved: &Moved, centres: &[Vec3], contact: &Contact, up: Vec3) -> Demand {
     let spheres = &swept.spheres;
-    let k = usize::from(contact.pair[1]);
-    let at_rest = &spheres.at_rest[k];
+    let [tooth, own] = contact.pair.map(usize::from);
+    let at_rest = &spheres.at_rest[own];
     let ([i, j], t) = knots(spheres.along_tongue(at_rest.centre));
-    let off = centres[k].x - moved.params().0[2];
-    let half = spheres.tongue_half_width(at_rest.centre).max(1e-6);
-    let sideways = contact.direction.x;
-    // A tooth that stands between the tongue's middle and the sphere cannot be passed by getting narrow.
-    let narrows = if sideways * off < 0.0 { sideways.abs() * (off.abs() / half).min(1.0) } else { 0.0 };
-    let lifts = contact.direction.dot(up);
-    let terms = [(i, narrows * (1.0 - t)), (j, narrows * t), (KNOTS + i, lifts * (1.0 - t)), (KNOTS + j, lifts * t)];
-    Demand { terms: terms.map(|(k, a)| (k as u16, a)), least: beyond }
+    let off = centres[own] - centres[tooth];
+    let reach = spheres.at_rest[tooth].radius + at_rest.radius - swept.bred(contact.pair);
+    let past = if swept.parts(contact)[0] == Part::UpperTeeth { -up } else { up };
+    let past_by = way_through(off, past, reach);
+    // A tooth that stands between the tongue's middle and the sphere cannot be left by getting narrow.
+    let aside = centres[own].x - moved.params().0[2];
+    let part = aside.abs() / spheres.tongue_half_width(at_rest.centre).max(1e-6);
+    let narrow_by = way_through(off, Vec3::X * -aside.signum(), reach) / part.max(1e-6);
+    let inwards = part > NARROWS && off.x * aside < 0.0;
+    let (first, factor, least) =
+        if inwards && narrow_by < past_by { (0, 1.0, narrow_by) } else { (KNOTS, past.dot(up), past_by) };
+    Demand::of_two((first + i, factor * (1.0 - t)), (first + j, factor * t), least)
 }
 
 /// Neighbours go along, so that the tongue stays even; nothing gives way by less.
@@ -233,45 +237,94 @@ fn even(shift: &mut TongueShift) {
     }
 }
 
-/// Steps of closing.
-const JAW_STEPS: usize = 10;
+/// Steps of opening until nothing is left that opening parts, and of coming back as near as may be.
+const OPENING: usize = 12;
+const CLOSING: usize = 8;
 /// Farthest that the teeth hold a jaw open beyond what is asked for, radians.
 const HELD_OPEN: f32 = 0.35;
+/// What opening parts slower than this part of the way round the hinge, it does not part: walls of canines.
+const STEEP: f32 = 0.3;
 
-/// The gape nearest to the one asked for, and never smaller, at which no tooth is deeper than at rest in another one or in
-/// bone; and how deep they are then left in each other, metres, beyond that. Where opening would not part them, as where the
-/// jaw slides a canine into its neighbour, the gape stays.
+/// What keeps a jaw from shutting so far: by how much it has to open at least, radians; and how deep any tooth is in another
+/// or in bone, metres, beyond what is bred.
+fn closed(swept: &Swept, params: Params, touching: &mut Touching) -> (f32, f32) {
+    let moved = swept.spheres.joints().at(swept.clamped(params));
+    swept.place(Group::Hard, &moved, Stray::default(), &mut touching.centres);
+    touching.contacts.clear();
+    swept.find(Group::Hard, moved.params(), Stray::default(), &touching.centres, &mut touching.contacts);
+    let (mut wider, mut deepest) = (0.0_f32, 0.0_f32);
+    for contact in &touching.contacts {
+        let beyond = swept.beyond(contact);
+        if beyond <= ENOUGH * swept.spheres.unit || swept.parts(contact)[0] == Part::Eyes {
+            continue;
+        }
+        deepest = deepest.max(beyond);
+        // In these pairings the second part goes with the mandible.
+        let lower = touching.centres[usize::from(contact.pair[1])];
+        let arm = lower.distance(swept.spheres.joints().hinge);
+        let rate = moved.opening(lower).dot(contact.direction);
+        if rate > STEEP * arm {
+            wider = wider.max(beyond / arm.max(1e-6));
+        }
+    }
+    (wider, deepest)
+}
+
+/// The gape nearest to the one asked for, and never smaller, at which no lower tooth or bone rests deeper than at rest on
+/// what is above it; and how deep any is then left in what opening does not part it from, metres, beyond rest.
 pub fn least_gape(swept: &Swept, params: Params, touching: &mut Touching) -> (f32, f32) {
     let asked = params.0[0];
-    let enough = ENOUGH * swept.spheres.unit;
-    let mut gape = asked;
-    let mut step = 0;
-    loop {
-        let moved = swept.spheres.joints().at(swept.clamped(params.with_gape(gape)));
-        swept.place(Group::Hard, &moved, Stray::default(), &mut touching.centres);
-        touching.contacts.clear();
-        swept.find(Group::Hard, moved.params(), Stray::default(), &touching.centres, &mut touching.contacts);
-        let (mut deepest, mut wider) = (0.0_f32, 0.0_f32);
-        for contact in &touching.contacts {
-            let beyond = swept.beyond(contact);
-            let [upper, lower] = swept.parts(contact);
-            if beyond <= enough || upper == Part::Eyes {
-                continue;
+    let (mut held, mut free) = (asked, asked);
+    for _ in 0..OPENING {
+        let (wider, deepest) = closed(swept, params.with_gape(free), touching);
+        if wider == 0.0 {
+            if free == asked {
+                return (asked, deepest);
             }
-            deepest = deepest.max(beyond);
-            // In every pairing the second part goes with the mandible.
-            debug_assert!(matches!(lower, Part::LowerTeeth | Part::Mandible));
-            let lower = touching.centres[usize::from(contact.pair[1])];
-            let rate = moved.opening(lower).dot(contact.direction);
-            // Not slower than a tenth of the way round: what opening hardly parts, it does not part.
-            if rate > 0.1 * lower.distance(swept.spheres.joints().hinge) {
-                wider = wider.max(beyond / rate);
-            }
+            break;
         }
-        if wider == 0.0 || step == JAW_STEPS {
-            return (gape, deepest);
-        }
-        gape = (gape + wider).min(asked + HELD_OPEN);
-        step += 1;
+        held = free;
+        // Never a step that could pass over what it parts.
+        free = (free + wider).min(asked + HELD_OPEN);
     }
+    for _ in 0..CLOSING {
+        let middle = 0.5 * (held + free);
+        if closed(swept, params.with_gape(middle), touching).0 == 0.0 {
+            free = middle;
+        } else {
+            held = middle;
+        }
+    }
+    (free, closed(swept, params.with_gape(free), touching).1)
+}
+
+/// Steps of bringing a jaw back to the middle.
+const BACK: usize = 6;
+/// How deep walls of teeth may be left in each other beyond what is bred, canonical millimetres.
+const WALLS: f32 = 0.2;
+
+/// The parameters with the jaw where teeth let it be: no nearer to shut, and where walls of canines meet no farther from the
+/// middle than they allow. At rest and on the straight way to it nothing changes.
+pub fn free_jaw(swept: &Swept, params: Params, touching: &mut Touching) -> Params {
+    let aside = |part: f32| {
+        let mut to = params;
+        (to.0[1], to.0[2]) = (params.0[1] * part, params.0[2] * part);
+        to
+    };
+    let (mut free, mut blocked, mut part) = (0.0, 1.0, 1.0);
+    for _ in 0..BACK {
+        let to = aside(part);
+        let (gape, deepest) = least_gape(swept, to, touching);
+        if deepest > WALLS * swept.spheres.unit {
+            blocked = part;
+        } else if part == 1.0 {
+            return to.with_gape(gape);
+        } else {
+            free = part;
+        }
+        part = 0.5 * (free + blocked);
+    }
+    let to = aside(free);
+    let (gape, _) = least_gape(swept, to, touching);
+    to.with_gape(gape)
 }

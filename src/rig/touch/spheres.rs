@@ -35,14 +35,14 @@ impl Sphere {
 pub struct Fit {
     /// By how much a sphere is larger than the ball inside the body.
     pub grow: f32,
-    /// How far outside all spheres a vertex may lie.
+    /// How far outside all spheres a vertex may lie, and a ball outside the body: a sphere sticks out by both at most.
     pub miss: f32,
     /// How many spheres there may be on one side of the median plane, those across it counted in. Where more would be
-    /// needed both lengths grow.
+    /// needed they grow further.
     pub most: usize,
 }
 
-/// What both lengths of a [`Fit`] are multiplied by where a cover has too many spheres, and how often.
+/// By what spheres grow further where a cover has too many of them, and how often.
 const WIDER: f32 = 1.3;
 const TIMES: usize = 12;
 
@@ -57,19 +57,14 @@ pub struct Body<'a> {
 
 /// Spheres that cover the vertices that are `wanted`, added to `out`. Of a `symmetric` body the left half is covered and
 /// mirrored. Returns the fit that was kept to, which is the one asked for unless that took too many spheres.
-pub fn cover(
-    body: Body,
-    fit: Fit,
-    symmetric: bool,
-    wanted: impl Fn(Vec3) -> bool,
-    out: &mut Vec<Sphere>,
-) -> Fit {
+pub fn cover(body: Body, fit: Fit, symmetric: bool, wanted: impl Fn(Vec3) -> bool, out: &mut Vec<Sphere>) -> Fit {
     // What lies in the median plane lies there to the bit.
-    let wanted: Vec<usize> = (0..body.at.len())
-        .filter(|&v| (!symmetric || body.at[v].x >= 0.0) && wanted(body.at[v]))
-        .collect();
+    let wanted: Vec<usize> =
+        (0..body.at.len()).filter(|&v| (!symmetric || body.at[v].x >= 0.0) && wanted(body.at[v])).collect();
     let normals = normals(body);
-    let balls: Vec<Sphere> = wanted.iter().map(|&v| ball(body.at, v, normals[v])).collect();
+    let faces = Faces::new(body);
+    let balls: Vec<Sphere> =
+        wanted.iter().map(|&v| within(&faces, body.at[v], ball(body.at, v, normals[v]), fit.miss)).collect();
     let targets: Vec<Vec3> = wanted.iter().map(|&v| body.at[v]).collect();
     let mut fit = fit;
     let mut chosen = Vec::new();
@@ -77,7 +72,7 @@ pub fn cover(
         if greedy(&balls, &targets, fit, symmetric, &mut chosen) {
             break;
         }
-        fit = Fit { grow: fit.grow * WIDER, miss: fit.miss * WIDER, ..fit };
+        fit.grow *= WIDER;
     }
     // In the order of the vertices, whatever order the cover was found in.
     chosen.sort_unstable();
@@ -117,6 +112,68 @@ fn ball(at: &[Vec3], v: usize, normal: Vec3) -> Sphere {
     // A lone vertex or one without a normal is covered by what it grows by.
     let radius = if radius.is_finite() { radius } else { 0.0 };
     Sphere { centre: p - normal * radius, radius }
+}
+
+/// How often a ball is made smaller at most, and by what.
+const SHRINKS: usize = 16;
+const SMALLER: f32 = 0.75;
+
+/// The ball that touches the surface at `p`, so small that it pokes through triangles by no more than `poke`: between
+/// vertices that stand far apart it could come out of the body.
+fn within(faces: &Faces, p: Vec3, ball: Sphere, poke: f32) -> Sphere {
+    let mut ball = ball;
+    for _ in 0..SHRINKS {
+        if ball.radius - faces.nearest(ball) <= poke {
+            break;
+        }
+        ball = Sphere { centre: p.lerp(ball.centre, SMALLER), radius: SMALLER * ball.radius };
+    }
+    ball
+}
+
+/// Triangles in the order of their first corners' z.
+struct Faces {
+    corners: Vec<[Vec3; 3]>,
+    longest: f32,
+}
+
+impl Faces {
+    fn new(body: Body) -> Self {
+        let faces = body.indices.as_chunks::<3>().0.iter();
+        let mut corners: Vec<[Vec3; 3]> = faces.map(|face| face.map(|v| body.at[v as usize])).collect();
+        corners.sort_by(|f, g| f[0].z.total_cmp(&g[0].z));
+        let longest = corners.iter().map(|[a, b, c]| a.distance(*b).max(a.distance(*c))).fold(0.0, f32::max);
+        Self { corners, longest }
+    }
+
+    /// How far the nearest triangle is from a ball's middle; no more than the radius.
+    fn nearest(&self, ball: Sphere) -> f32 {
+        let mut near = ball.radius;
+        let reach = ball.radius + self.longest;
+        let first = self.corners.partition_point(|[a, ..]| a.z < ball.centre.z - reach);
+        for &[a, b, c] in self.corners[first..].iter().take_while(|[a, ..]| a.z <= ball.centre.z + reach) {
+            let corner = a - ball.centre;
+            // Most are too far whatever their shape.
+            if corner.length_squared() < (near + self.longest) * (near + self.longest) {
+                near = near.min(from_origin([corner, b - ball.centre, c - ball.centre]));
+            }
+        }
+        near
+    }
+}
+
+/// Distance of a triangle from the origin, by the regions of its corners and sides (Ericson 2004, "Real-time collision
+/// detection", 5.1.5).
+fn from_origin([a, b, c]: [Vec3; 3]) -> f32 {
+    let to_side = |p: Vec3, q: Vec3| {
+        let along = q - p;
+        let t = (-p.dot(along) / along.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (p + along * t).length()
+    };
+    let normal = (b - a).cross(c - a);
+    let size = normal.length();
+    let over = [(a, b), (b, c), (c, a)].iter().all(|&(p, q)| p.cross(q).dot(normal) >= 0.0);
+    if over && size > 0.0 { a.dot(normal).abs() / size } else { to_side(a, b).min(to_side(b, c)).min(to_side(c, a)) }
 }
 
 /// Chooses balls that cover all targets (one ball for each target, with its own among them); whether they are few enough.

@@ -7,7 +7,7 @@
 //! Lips and tongue are moved by more than the parameters. How far they may have strayed from where those put them is a
 //! further axis of a table, of a few levels: what strays little has short lists.
 
-use super::motion::{AXES, Params, Travel};
+use super::motion::{AXES, Params, Swing, Travel};
 use super::parts::{Part, Spheres};
 use crate::math::ops;
 use glam::Vec3;
@@ -83,7 +83,8 @@ const ROUNDING: f32 = 1e-6;
 struct Sweep<'a> {
     spheres: &'a Spheres,
     table: &'a Table,
-    /// Radius with slack.
+    /// Of each sphere: whether it may stray, and its radius with what it strays.
+    soft: Vec<bool>,
     reach: Vec<f32>,
     /// Of each sphere: the number of the last box that asked for it, where it is in the middle of that, and how far it travels.
     asked: Vec<u32>,
@@ -112,11 +113,9 @@ impl Table {
             kept: Vec::new(),
         };
         let pairs: Vec<Pair> = all_pairs(spheres, pairings).collect();
-        for level in 0..table.levels.len() {
-            for list in table.sweep(spheres, &pairs, table.levels[level]) {
-                table.pairs.extend_from_slice(&list);
-                table.starts.push(table.pairs.len() as u32);
-            }
+        for list in table.sweep(spheres, &pairs) {
+            table.pairs.extend_from_slice(&list);
+            table.starts.push(table.pairs.len() as u32);
         }
         table.kept = table.pairs.iter().flatten().copied().collect();
         table.kept.sort_unstable();
@@ -124,22 +123,46 @@ impl Table {
         table
     }
 
-    /// The list of each cell, while soft parts stray no farther.
-    fn sweep(&self, spheres: &Spheres, pairs: &[Pair], stray: f32) -> Vec<Vec<Pair>> {
+    /// The lists of each level's cells.
+    fn sweep(&self, spheres: &Spheres, pairs: &[Pair]) -> Vec<Vec<Pair>> {
         let n = spheres.at_rest.len();
-        let soft = |k: usize| if spheres.part(k).is_soft() { stray } else { 0.0 };
+        let n_cells: usize = self.cells.iter().product();
         let mut sweep = Sweep {
             spheres,
             table: self,
-            reach: (0..n).map(|k| spheres.at_rest[k].radius + soft(k)).collect(),
+            soft: (0..n).map(|k| spheres.part(k).is_soft()).collect(),
+            reach: vec![0.0; n],
             asked: vec![0; n],
             n_boxes: 0,
             centres: vec![Vec3::ZERO; n],
             travel: vec![Travel::default(); n],
-            lists: vec![Vec::new(); self.cells.iter().product()],
+            lists: vec![Vec::new(); n_cells * self.levels.len()],
         };
-        sweep.halve(pairs, self.cells.map(|n| 0..n));
+        let Some((&most, lower)) = self.levels.split_last() else { return sweep.lists };
+        sweep.set_stray(most);
+        let first = n_cells * lower.len();
+        sweep.halve(pairs, self.cells.map(|n| 0..n), first);
+        // What strays less touches no more.
+        for (level, &stray) in lower.iter().enumerate() {
+            sweep.set_stray(stray);
+            for cell in 0..n_cells {
+                let all = std::mem::take(&mut sweep.lists[first + cell]);
+                sweep.lists[level * n_cells + cell] = sweep.touching(&all, &self.cell_at(cell));
+                sweep.lists[first + cell] = all;
+            }
+        }
         sweep.lists
+    }
+
+    /// Where a cell lies, each axis a range of one.
+    fn cell_at(&self, mut cell: usize) -> [Range<usize>; AXES] {
+        let mut at = [const { 0..0 }; AXES];
+        for axis in (0..AXES).rev() {
+            let k = cell % self.cells[axis];
+            at[axis] = k..k + 1;
+            cell /= self.cells[axis];
+        }
+        at
     }
 
     /// Number of the list for these parameters (of those beyond an end, for the nearest) and for soft parts that stray no
@@ -210,15 +233,22 @@ impl Table {
 }
 
 impl Sweep<'_> {
-    /// Keeps of the pairs those that can touch in a box, and goes on with its halves, or stores them where it is one cell.
-    fn halve(&mut self, pairs: &[Pair], cells: [Range<usize>; AXES]) {
+    fn set_stray(&mut self, stray: f32) {
+        for ((reach, sphere), soft) in self.reach.iter_mut().zip(&self.spheres.at_rest).zip(&self.soft) {
+            *reach = sphere.radius + if *soft { stray } else { 0.0 };
+        }
+    }
+
+    /// Keeps of the pairs those that can touch in a box, and goes on with its halves, or stores them where it is one cell;
+    /// `first`: the number of the first cell's list.
+    fn halve(&mut self, pairs: &[Pair], cells: [Range<usize>; AXES], first: usize) {
         let left = self.touching(pairs, &cells);
         // The axis with the most cells left, of equals the first.
         let widest = (0..AXES).rev().max_by_key(|&axis| cells[axis].len()).unwrap_or(0);
         let Range { start, end } = cells[widest];
         if end - start == 1 {
             let cell = (0..AXES).fold(0, |cell, axis| cell * self.table.cells[axis] + cells[axis].start);
-            self.lists[cell] = left;
+            self.lists[first + cell] = left;
             return;
         }
         if left.is_empty() {
@@ -228,7 +258,7 @@ impl Sweep<'_> {
         for half in [start..middle, middle..end] {
             let mut cells = cells.clone();
             cells[widest] = half;
-            self.halve(&left, cells);
+            self.halve(&left, cells, first);
         }
     }
 
@@ -245,9 +275,10 @@ impl Sweep<'_> {
                 self.travel[k] = self.spheres.joints().travel(follow, centre, &moved, &half);
             }
         }
+        let swing = Swing::new(&middle, &half);
         let near = |&&[a, b]: &&Pair| {
             let (a, b) = (usize::from(a), usize::from(b));
-            let travel = self.travel[a].apart(&self.travel[b], &middle, &half);
+            let travel = self.travel[a].apart(&self.travel[b], &swing);
             let reach = self.reach[a] + self.reach[b] + travel + ROUNDING;
             self.centres[a].distance_squared(self.centres[b]) <= reach * reach
         };
