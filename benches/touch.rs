@@ -254,8 +254,9 @@ fn benches(c: &mut Criterion) {
     let rig = Arc::new(Rig::embedded(&table).expect("the embedded rig is tested"));
     let mut maker = Maker::new(&table, &rig);
     eprintln!(
-        "| Head | Spheres | Pairs: table | every pair | tree (and boxes) | ns: table | every pair | tree | R* tree | every pair / table | tree / table | Tables, kB | Made in, ms |"
+        "| Head | Spheres | Contacts | Tests: table | tree, and boxes | every pair | Table, ns | Tree / table | R* tree / table | Every pair / table | Tables, kB | Swept in, ms |"
     );
+    eprintln!("{}|", "| --- ".repeat(12));
     for id in BREEDS {
         let case = Case::new(&mut maker, id);
         let mut touching = case.swept.buffers();
@@ -297,10 +298,12 @@ fn benches(c: &mut Criterion) {
         let made = start.elapsed().as_secs_f64() * 1e3;
         let bytes: usize = case.swept.tables.iter().map(|t| t.n_bytes()).sum();
         eprintln!(
-            "| `{id}` | {} | {tests} | {all} | {leaves} ({boxes}) | {by_table:.0} | {by_all:.0} | {by_boxes:.0} | {by_r_star:.0} | {:.1} | {:.1} | {} | {made:.0} | {n_contacts}",
+            "| `{id}` | {} | {:.1} | {tests} | {leaves}, {boxes} | {all} | {by_table:.0} | {:.1} | {:.1} | {:.0} | {} | {made:.0} |",
             case.swept.spheres.at_rest.len(),
-            by_all / by_table,
+            n_contacts as f64 / FRAMES as f64,
             by_boxes / by_table,
+            by_r_star / by_table,
+            by_all / by_table,
             bytes / 1000,
         );
     }
