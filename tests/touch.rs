@@ -27,7 +27,7 @@ use mouths::{Maker, Shape};
 use settings::{World, sweeps_all};
 use solid::Solid;
 
-/// Skins on which the lips of these heads hang are refined so often.
+/// The heads of the program, and what makes their mouths.
 struct Mouths {
     world: World,
     maker: Maker,
