@@ -63,6 +63,8 @@ struct World {
     haired: Vec<usize>,
     lips: Vec<usize>,
     ears: Vec<usize>,
+    /// What does not run behind the eyeball, where the skin is sewn up out of sight.
+    lids: Vec<usize>,
     teeth: [Vec<u32>; 2],
 }
 
@@ -88,13 +90,27 @@ impl World {
         let all = |want: &dyn Fn(Region) -> bool| -> Vec<usize> {
             (0..of.len()).filter(|&v| of[v].is_some_and(|r| r.iter().all(|&r| want(r)))).collect()
         };
+        // Leather off its base, which is part of the head.
+        let h = rig.plan().handles();
+        let base: Vec<u32> =
+            h.a[..2].iter().flatten().flat_map(|&v| [u32::from(v), rig.image(usize::from(v)) as u32]).collect();
+        let pole = [u32::from(h.ep), rig.image(usize::from(h.ep)) as u32];
+        let mut away = vec![[true; 2]; plan.n_vertices()];
+        for (face, &parent) in plan.indices().as_chunks::<3>().0.iter().zip(plan.face_parent()) {
+            let own = &control[parent as usize];
+            for &v in face {
+                away[v as usize][0] &= !own.iter().any(|v| base.contains(v));
+                away[v as usize][1] &= !own.iter().any(|v| pole.contains(v));
+            }
+        }
         let is_ear = |r| matches!(r, Region::EarInner | Region::EarOuter | Region::EarEdge);
         let is_lip = |r| matches!(r, Region::UpperLip | Region::LowerLip | Region::WhiskerPad | Region::Chin);
         let is_inside = |r| matches!(r, Region::Mouth | Region::Nostril | Region::Lid);
         Self {
             haired: all(&|r| !is_ear(r) && !is_inside(r)),
             lips: all(&is_lip),
-            ears: all(&is_ear),
+            ears: all(&is_ear).into_iter().filter(|&v| away[v][0]).collect(),
+            lids: (0..away.len()).filter(|&v| away[v][1]).collect(),
             teeth: [true, false].map(Bones::tooth_indices),
             library: Library::embedded().expect("the tables"),
             rig,
@@ -130,7 +146,7 @@ impl World {
         let places = [skull, mandible];
         let to_bone = |k: usize, p: Vec3| s.bones[k].distance(places[k].back(p));
         let eyes: Vec<Eye> = frame.eyes.iter().map(|e| e.eye).collect();
-        let lids = skin.iter().map(|&p| {
+        let lids = self.lids.iter().map(|&v| skin[v]).map(|p| {
             let off = |e: &Eye| {
                 let d = p - e.centre;
                 let far = d.length();

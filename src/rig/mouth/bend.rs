@@ -29,6 +29,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
     if [far, lift, curl, side, wide].iter().all(|v| *v == 0.0) {
         return;
     }
+    let gape = pose.median(Channel::JawGape);
     let rest = &mouth.tongue;
     let middle = |i: usize| 0.5 * (rest[i * AROUND] + rest[i * AROUND + AROUND - 1]).with_x(0.0);
     let smooth = super::tongue::smoothstep;
@@ -56,9 +57,11 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
         let s = along[i];
         let thick = stretch(s);
         let turn = |s: f32, way: f32| {
-            let up = lift * smooth(from, to, way) + curl * smooth(CURLS, 1.0, s);
-            Mat3::from_rotation_y((side * smooth(FREE[0], 0.9, s)).to_radians())
-                * Mat3::from_rotation_x(-up.to_radians())
+            // Teeth and palate hold what is still inside.
+            let outside = smooth(from, to, way);
+            let inside = curl.clamp(0.0, gape) * (1.0 - is_out) * smooth(CURLS, 1.0, s);
+            let up = lift * outside + curl * is_out * smooth(CURLS, 1.0, s) * outside + inside;
+            Mat3::from_rotation_y((side * outside).to_radians()) * Mat3::from_rotation_x(-up.to_radians())
         };
         let step = steps[i] * thick;
         at += turn(s, way + 0.5 * step.length()) * step;

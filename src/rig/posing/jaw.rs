@@ -55,9 +55,9 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
 }
 
 /// How deep the mandible with its lip may lie in its skin, head units: what lies there of tissue.
-const TISSUE: f32 = 0.35;
+const TISSUE: f32 = 0.1;
 /// Longest way out of it, head units.
-const FARTHEST: f32 = 1.2;
+const FARTHEST: f32 = 1.5;
 
 /// Moves skin that makes a part of the turn off the mandible, which makes all of it; `weights`: of the turn, `jaw`: the
 /// mandible's place, `surface`: the head at rest.

@@ -8,6 +8,8 @@ use glam::{EulerRot, Mat3, Vec3, vec3};
 
 /// How much of the head's turn the cut end of the neck makes: it lies in the middle of the vertebrae that share it.
 const END: f32 = 0.35;
+/// How much of the head's way forward or back a part of the neck makes that turns with nothing.
+const GLIDES: f32 = 0.75;
 const ROUNDS: usize = 60;
 
 /// Weight of the head's turn for each vertex of the whole mesh.
@@ -27,7 +29,8 @@ pub(super) fn weights(h: &Handles, images: &[u32], neighbours: &Neighbours, n: u
 pub(super) fn turned(pivot: Vec3, unit: f32, pose: &Pose, part: f32) -> Rigid {
     let of = |c: Channel| pose.median(c) * part;
     let [turn, nod, tilt] = [Channel::HeadTurn, Channel::HeadNod, Channel::HeadTilt].map(|c| of(c).to_radians());
-    let forward = of(Channel::HeadForward);
+    // The whole neck stretches and draws in: its end goes most of the way along.
+    let forward = pose.median(Channel::HeadForward) * (GLIDES + (1.0 - GLIDES) * part);
     if turn == 0.0 && nod == 0.0 && tilt == 0.0 && forward == 0.0 {
         return Rigid::default();
     }
