@@ -410,7 +410,7 @@ impl Pipeline {
         }
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
             let unit = self.rig.of_head(values, &mut self.deformed).unit;
-            let pose = self.rig.posing().limits().clamped(&self.pose);
+            let pose = self.rig.posing().possible(&self.pose);
             inside.shape(head, &pose, &places, unit);
         }
     }

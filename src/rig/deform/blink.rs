@@ -138,7 +138,8 @@ pub fn place(
                 angle: mix(open.angle, shut.angle),
             });
             // The cornea goes with the gaze, and lifts the lids: as far off it as they were, or as they need be.
-            at[v] = if eye == ahead && turn == 0.0 { p } else { hinge.off(p, ahead, rest[v], above) };
+            at[v] =
+                if lids.closed == 0.0 && eye == ahead && turn == 0.0 { p } else { hinge.off(p, ahead, rest[v], above) };
         }
     }
 }

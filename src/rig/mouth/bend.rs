@@ -68,8 +68,8 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
         way += step.length();
         let turn = turn(s, way);
         // Before the teeth it is as wide as it likes.
-        let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(0.9, 1.15, way / length);
-        let wider = frees * (1.0 + WIDER * wide * free(s));
+        let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(1.0, 1.2, way / length);
+        let wider = frees * (1.0 + WIDER * wide * is_out * smooth(1.0, 1.2, way / length));
         let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
         // It lies on the incisors where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;

@@ -4,7 +4,8 @@
 //! hinge, so that it runs on an arc and the cheek neither sinks in nor tears.
 
 use super::rigid::Rigid;
-use super::zones::Neighbours;
+use super::zones::{Neighbours, smoothstep};
+use crate::mesh::VertexId;
 use crate::motion::{Channel, Pose};
 use crate::rig::Proportions;
 use crate::rig::handles::{Handles, NONE};
@@ -54,21 +55,40 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
     regions.passage(&held, ROUNDS)
 }
 
+/// How far a tongue that is out keeps the jaw open, degrees.
+const BY_TONGUE: f32 = 9.0;
 /// How deep the mandible with its lip may lie in its skin, head units: what lies there of tissue.
 const TISSUE: f32 = 0.1;
 /// Longest way out of it, head units.
 const FARTHEST: f32 = 1.5;
 
-/// Moves skin that makes a part of the turn off the mandible, which makes all of it; `weights`: of the turn, `jaw`: the
-/// mandible's place, `surface`: the head at rest.
+/// Vertices that the mandible may come to as it turns: those that make a part of the turn, and two rings around them.
+pub(super) fn near(weights: &[f32], neighbours: &Neighbours) -> Vec<u32> {
+    let mut near: Vec<bool> = weights.iter().map(|&w| w > 0.0).collect();
+    for _ in 0..2 {
+        let before = near.clone();
+        for (v, near) in near.iter_mut().enumerate() {
+            *near |= neighbours.of(VertexId(v as u32)).iter().any(|&n| before[n as usize]);
+        }
+    }
+    (0..weights.len() as u32).filter(|&v| near[v as usize] && weights[v as usize] < 1.0).collect()
+}
+
+/// The least gape that the pose's tongue asks for, degrees: it goes out between the teeth.
+pub(super) fn opened(pose: &Pose) -> f32 {
+    BY_TONGUE * smoothstep(0.0, 12.0, pose.median(Channel::TongueOut))
+}
+
+/// Moves skin off the mandible, of whose turn it makes a part; `near`: see there, `jaw`: the mandible's place, `surface`:
+/// the head at rest.
 pub(super) fn keep_off(
-    weights: &[f32],
+    near: &[u32],
     jaw: &Rigid,
     (shape, surface): (&Proportions, &Implicit),
     rest: &[Vec3],
     at: &mut [Vec3],
 ) {
-    for (v, _) in weights.iter().enumerate().filter(|(_, w)| 0.0 < **w && **w < 1.0) {
+    for v in near.iter().map(|&v| v as usize) {
         let in_jaw = |p: Vec3| shape.proportional(jaw.back(p));
         let (d, g) = surface.sample(in_jaw(at[v]), Layer::Lower);
         if d < -TISSUE {

@@ -44,6 +44,8 @@ pub struct PosePlan {
     ears: Ears,
     /// One for each vertex of the whole mesh: how much of the mandible's turn it makes, and of the head's.
     jaw: Vec<f32>,
+    /// Vertices that the mandible may come to.
+    near_jaw: Vec<u32>,
     neck: Vec<f32>,
     /// Numbers of the muscles that close the jaws.
     closers: [Option<usize>; 2],
@@ -100,13 +102,15 @@ impl PosePlan {
         mirror.resize(n, 0);
         images.iter().enumerate().for_each(|(v, &image)| mirror[image as usize] = v as u32);
         let table = MuscleTable::embedded()?;
+        let jaw = jaw::weights(h, images, &neighbours, n);
         Ok(Self {
             limits: JointLimits::embedded()?,
             muscles: MusclePlan::new(&table, half, &neighbours, &base, &mirror)?,
             fibres: Fibres::new(&table, half)?,
             lips: Lips::new(h, &neighbours, &base),
             ears: Ears::new(h, &neighbours, &base),
-            jaw: jaw::weights(h, images, &neighbours, n),
+            near_jaw: jaw::near(&jaw, &neighbours),
+            jaw,
             neck: neck::weights(h, images, &neighbours, n),
             closers: ["masseter", "temporalis"].map(|id| table.index_of(id)),
             table,
@@ -132,6 +136,15 @@ impl PosePlan {
     /// How much of the head's turn each vertex of the whole mesh makes, 0 to 1.
     pub fn neck_weights(&self) -> &[f32] {
         &self.neck
+    }
+
+    /// The pose inside the limits of its joints, with the jaw open as far as a tongue that is out asks for.
+    #[must_use]
+    pub fn possible(&self, pose: &Pose) -> Pose {
+        let mut out = self.limits.clamped(pose);
+        let gape = &mut out.channel_mut(Channel::JawGape)[0];
+        *gape = gape.max(jaw::opened(pose).min(self.limits.of(Channel::JawGape).range.1));
+        out
     }
 
     /// How muscles are seen.
@@ -200,7 +213,7 @@ impl PosePlan {
         scratch: &mut Vec<Vec3>,
         control: &mut [Vec3],
     ) -> ([Eye; 2], Places) {
-        let pose = &self.limits.clamped(pose);
+        let pose = &self.possible(pose);
         let mirror = self.muscles.mirror();
         let bulges = self.bulges(head, pose);
         self.muscles.contract(&head.pulls, |m| self.contraction(pose, &bulges, m), control);
@@ -213,7 +226,7 @@ impl PosePlan {
                 *p = jaw::turned(head.hinge, head.unit, pose, w).point(*p);
             }
             if let Some((shape, surface)) = &head.surface {
-                jaw::keep_off(&self.jaw, &jaw, (shape, surface), &head.rest, control);
+                jaw::keep_off(&self.near_jaw, &jaw, (shape, surface), &head.rest, control);
             }
         }
         if let Some((shape, surface)) = &head.surface {
@@ -237,7 +250,7 @@ impl PosePlan {
 
     /// See [`super::Rig::pressed`].
     pub(super) fn pressed(&self, head: &OfHead, pose: &Pose, out: &mut [Vec3]) -> bool {
-        let pose = &self.limits.clamped(pose);
+        let pose = &self.possible(pose);
         self.muscles.press(&head.pulls, |m| pose.muscle(m), out)
     }
 
@@ -250,7 +263,7 @@ impl PosePlan {
         posed: (&[Vec3], &Places),
         out: &mut Vec<Vec3>,
     ) {
-        let pose = &self.limits.clamped(pose);
+        let pose = &self.possible(pose);
         let bite = pose.channel(Channel::Bite);
         let contraction = |m: usize| match self.closers.contains(&Some(m)) {
             true => [0, 1].map(|side| pose.muscle(m)[side].max(bite[side])),

@@ -18,7 +18,7 @@ const SHARED: f32 = 0.8;
 /// How high skin stands up that is pressed together to nothing, millimetres.
 const THROWN_UP: f32 = 9.0;
 /// Part of a pull into the head that the tissue below takes back.
-const INWARDS: f32 = 0.9;
+const INWARDS: f32 = 1.05;
 /// How much the lining at the corner of the mouth goes with it.
 const CORNER: f32 = 0.7;
 /// Weakest pull that counts.
