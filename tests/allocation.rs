@@ -88,3 +88,40 @@ fn a_pose_in_the_steady_state_allocates() {
     assert_eq!(n, 0);
     assert!(overruled > 0, "rules were at work");
 }
+
+#[cfg(feature = "head")]
+#[path = "support/mouths.rs"]
+mod mouths;
+
+#[cfg(feature = "head")]
+#[test]
+fn the_question_what_touches_allocates() {
+    use londra::anatomy::{ParamTable, library};
+    use londra::rig::Rig;
+    use londra::rig::touch::{Group, Params, Resolution, Stray, free_jaw, free_lips, free_tongue};
+    use std::sync::Arc;
+
+    let table = Arc::new(ParamTable::embedded().expect("the embedded table is tested"));
+    let rig = Arc::new(Rig::embedded(&table).expect("the embedded rig is tested"));
+    let mut maker = mouths::Maker::new(&table, &rig);
+    let shape = maker.shape(&library::breed(&table, "german_shepherd").expect("an embedded breed"));
+    let swept = maker.swept(&shape);
+    let (mut touching, mut resolution) = (swept.buffers(), Resolution::default());
+    let mut skin = shape.skin.clone();
+    let mut frame = |k: usize| {
+        let params = Params([0.01 * k as f32, 0.001, 0.001, 0.0005 * k as f32, 0.2]);
+        let params = free_jaw(&swept, swept.clamped(params), &mut touching);
+        let moved = swept.spheres.joints().at(params);
+        for group in Group::ALL {
+            swept.place(group, &moved, Stray::default(), &mut touching.centres);
+        }
+        swept.query(params, Stray::default(), &mut touching);
+        std::hint::black_box(free_tongue(&swept, &moved, 0.0, &mut touching, &mut resolution));
+        // Lips that a hand presses in.
+        skin.iter_mut().zip(&shape.skin).for_each(|(to, p)| *to = *p * 0.97);
+        std::hint::black_box(free_lips(&swept, &moved, 0.004, &mut skin, &mut touching, &mut resolution));
+    };
+    // Once to make the buffers as large as they need be.
+    (0..60).for_each(&mut frame);
+    assert_eq!(allocations(|| (0..60).for_each(&mut frame)), 0);
+}

@@ -617,11 +617,12 @@ fn hanging_ears_stick_to_a_head_that_looks_down_or_standing_ones_fall() {
         let pose = act.pose(&library, 0.0, |_| Stimulus::default(), |_| ());
         (pose.channel(Channel::EarBend)[0], pose.channel(Channel::EarSway))
     };
-    assert!(bend(1.0, 1.0, "AD54").0 < -15.0, "forward, as the head looks down");
-    assert!(bend(1.0, 1.0, "AD53").0 > 15.0, "back, as it looks up");
+    // What hangs swings forward where what stands bends back.
+    assert!(bend(1.0, 1.0, "AD54").0 > 15.0, "forward, as the head looks down");
+    assert!(bend(1.0, 1.0, "AD53").0 < -15.0, "back, as it looks up");
     assert!(bend(-1.0, 0.0, "AD54").0.abs() < 0.1);
     let (_, [left, right]) = bend(1.0, 1.0, "AD55");
-    assert!(left > 8.0 && right < -8.0, "the crown goes to the left shoulder: both tips stay behind on the left");
+    assert!(left < -8.0 && right > 8.0, "the crown goes to the left shoulder: both tips hang to the left of the head");
 }
 
 fn hash(library: &Library, pose: &Pose) -> u64 {

@@ -6,7 +6,7 @@
 use londra::anatomy::{Breed, ParamTable, library};
 use londra::frame::{Layers, Pipeline};
 use londra::measure::{Side as Where, skin_landmarks};
-use londra::motion::{Activation, Axis, Group, UNITS, JointLimits, MuscleTable, Sides, UnitTable};
+use londra::motion::{Activation, Axis, Group, Library, Sides};
 use londra::rig::{Deformed, Rig, deform};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -21,8 +21,7 @@ const SLACK: (f32, f32) = (0.6, 0.30);
 
 struct World {
     table: ParamTable,
-    units: UnitTable,
-    limits: JointLimits,
+    library: Library,
     pipeline: Pipeline,
 }
 
@@ -32,17 +31,14 @@ impl World {
     fn new() -> Self {
         let table = ParamTable::embedded().expect("the table is there");
         let rig = Arc::new(Rig::embedded(&table).expect("the rig is there"));
-        let muscles = MuscleTable::embedded().expect("the muscles are there");
-        let units = UnitTable::parse("rigs/units.ron", UNITS, &muscles).expect("the units are there");
-        let limits = JointLimits::embedded().expect("the limits are there");
+        let library = Library::embedded().expect("the tables are there");
         let mut pipeline = Pipeline::new(rig, 1).expect("level 1");
         pipeline.set_layers(Layers::parse("skin,eyes,tongue").expect("layers")).expect("they are there");
-        Self { table, units, limits, pipeline }
+        Self { table, library, pipeline }
     }
 
     fn points(&mut self, breed: &Breed, asked: &Activation) -> Points {
-        let resolved = self.units.resolve(asked, |_| {});
-        self.pipeline.set_pose(self.units.pose(&resolved, &self.limits));
+        self.pipeline.set_pose(self.library.pose_of(asked));
         let rig = self.pipeline.rig().clone();
         let frame = self.pipeline.update(breed);
         skin_landmarks(&rig, &breed.values, &frame).into_iter().map(|l| ((l.id, l.side), l.position)).collect()
@@ -68,7 +64,7 @@ fn along(axis: Axis, d: Vec3) -> f32 {
 #[test]
 fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
     let mut world = World::new();
-    let units = world.units.units.clone();
+    let units = world.library.units.units.clone();
     let mut wrong = Vec::new();
     for id in BREEDS {
         let breed = library::breed(&world.table, id).expect(id);
@@ -115,7 +111,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
 #[test]
 fn a_unit_of_one_side_moves_the_other() {
     let mut world = World::new();
-    let units = world.units.units.clone();
+    let units = world.library.units.units.clone();
     let breed = library::breed(&world.table, "german_shepherd").expect("it is there");
     let rest = world.points(&breed, &Activation::default());
     for (number, unit) in units.iter().enumerate().filter(|(_, u)| u.sides == Sides::Each && u.group != Group::Tongue) {
@@ -140,7 +136,7 @@ fn a_unit_of_one_side_moves_the_other() {
 #[test]
 fn both_sides_together_are_no_mirror_image() {
     let mut world = World::new();
-    let units = world.units.units.clone();
+    let units = world.library.units.units.clone();
     let breed = library::breed(&world.table, "beagle").expect("it is there");
     for (number, unit) in units.iter().enumerate().filter(|(_, u)| u.sides != Sides::Median && u.id != "AD37") {
         let mut asked = Activation::default();

@@ -128,23 +128,23 @@ impl Follow {
     }
 }
 
-/// A head that nods up carries hanging tips forward and standing ones back; one that tilts to its left carries hanging tips
-/// to its right. What turns about the vertical carries both alike.
+/// A bend turns leather as a nod turns the head, and a left sway as a tilt does, whether it hangs or stands; what shifts the
+/// base turns what hangs the other way than what stands.
 fn led(pose: &Pose, hang: f32) -> Led {
     let [turn, nod, tilt, forward] =
         [Channel::HeadTurn, Channel::HeadNod, Channel::HeadTilt, Channel::HeadForward].map(|c| pose.median(c));
     let [back, out] = [Channel::EarBack, Channel::EarOut].map(|c| pose.channel(c));
-    // To the dog's left, degrees; a turn swings tips less than a tilt, being nearer to its axis.
-    let aside = 0.4 * turn - hang * tilt;
+    // Degrees; a turn swings tips less than a tilt, being nearer to its axis.
+    let aside = tilt - 0.4 * hang * turn;
     // A millimetre forward counts as much as half a degree.
-    let bend = |side: usize| 0.5 * back[side] - hang * nod - 0.5 * forward;
+    let bend = |side: usize| 0.5 * back[side] + nod + 0.5 * hang * forward;
     let sway = |side: usize, sign: f32| 0.5 * out[side] + sign * aside;
     // What stands does not hang down wherever the head goes: cartilage holds it.
-    let hang = hang.max(0.0);
+    let hangs = hang.max(0.0);
     Led {
         ears: [[bend(0), bend(1)], [sway(0, 1.0), sway(1, -1.0)]],
         flew: turn - 0.5 * tilt,
-        off_plumb: [[-hang * nod; 2], [-hang * tilt, hang * tilt]],
+        off_plumb: [[hangs * nod; 2], [hangs * tilt, -hangs * tilt]],
         flew_off_plumb: -0.5 * tilt,
     }
 }

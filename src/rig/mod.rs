@@ -18,6 +18,7 @@ pub mod mouth;
 pub mod posing;
 mod primitives;
 mod proportions;
+pub mod touch;
 mod uv;
 pub mod whiskers;
 

@@ -181,8 +181,9 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let mut out = [neck; COLUMNS];
     let gum = [
         outwards * wall - height(skirt * unit),
-        outwards * wall - height(1.5 * unit),
-        outwards * (0.35 * edge + 0.65 * wall) + height(0.75 * margin),
+        // Close to the necks above, or the teeth of the other jaw would be behind it.
+        outwards * (0.25 * edge + 0.75 * wall) - height(3.5 * unit),
+        outwards * (0.80 * edge + 0.20 * wall) + height(0.6 * margin),
         outwards * edge + height(margin),
         height(margin),
         inwards * edge_in + height(margin),

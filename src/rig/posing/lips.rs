@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 /// How far from the margin a lip follows it, head units of the base head.
 const REACH: f32 = 2.4;
 /// Way of the lower lip for that of the upper one: it is held by the chin.
-const LOWER: f32 = 0.55;
+const LOWER: f32 = 0.3;
 /// How far a cheek is puffed out around the muzzle's side.
 const PUFF: f32 = 5.0;
 /// How much a lip that parts turns outwards for its way up or down.
