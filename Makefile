@@ -16,8 +16,8 @@ test: setup ## every test, with a sample of the large sweeps
 	@echo "The engine alone, without the dog and without graphics:"
 	$(TEST) --no-default-features
 	@echo "The bits of a frame do not depend on optimisation:"
-	$(TEST) --profile unoptimised --no-default-features --features head --test frame_hash --test engine_hash
-	$(TEST) --release --no-default-features --features head --test frame_hash --test engine_hash
+	$(TEST) --profile unoptimised --no-default-features --features head --test frame_hash --test motion_hash --test engine_hash
+	$(TEST) --release --no-default-features --features head --test frame_hash --test motion_hash --test engine_hash
 
 test-all: export LONDRA_SWEEP = all
 test-all: test ## every test, with the large sweeps in full

@@ -1,5 +1,5 @@
 //! `docs/parameters.md` says what `rigs/anatomy.ron` says, `docs/breeds.md` what `rigs/breeds` says, `docs/markings.md` which
-//! markings there are; `UPDATE_DOCS=1` rewrites them. No page has a place left open.
+//! markings there are, `docs/dogfacs.md` what `rigs/units.ron` says; `UPDATE_DOCS=1` rewrites them. No page has a place left open.
 #![cfg(feature = "head")]
 
 #[path = "support/known_breeds.rs"]
@@ -9,6 +9,7 @@ mod settings;
 
 use known_breeds::{LIVE_AND_BONE, is_class, live_ratio};
 use londra::anatomy::{MarkingField, MarkingKind, ParamSpec, ParamTable, Reference, Region, Status, Unit};
+use londra::motion::{Channel, Library, Sides, Status as Known, Target};
 use settings::World;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -210,6 +211,133 @@ fn table_of_breeds_is_stale() {
     keep("docs/breeds.md", &breeds_text(&World::embedded()), "rigs/breeds");
 }
 
+// ---- DogFACS units ----
+
+fn units_text(library: &Library) -> String {
+    let (units, muscles) = (&library.units, &library.muscles);
+    let mut out = String::from(
+        "# DogFACS units\n\n\
+         <!-- Written from rigs/units.ron, rigs/muscles.ron and rigs/skeleton.ron by `UPDATE_DOCS=1 cargo test --test docs`. Edit those files, not this. -->\n\n\
+         DogFACS (Waller, Caeiro, Peirce, Burrows and Kaminski 2013) codes what a dog's face does, not what the dog feels.\n\
+         Its units are Londra's controls: each has a value from 0 to 1, and one that a dog can do on one side has one for the left and one for the right.\n\
+         Codes of movements are the manual's; where the manual was not at hand, the code follows the human system and the row says so.\n\
+         The motions of landmarks are Londra's own: what a unit at 1 does on a head with a skull of 200 mm, scaled by the head.\n\
+         `cargo test --test units` holds them against nine breeds; they do not claim to be measured on dogs.\n\n\
+         `londra render --unit AU101=0.7 --unit EAD103L=1 -o dog.png` sets units, `--facs 101+12B+EAD103` reads the notation: codes joined by `+`, a side as `L` or `R`, an intensity as `A` (0.2) to `E` (1).\n\
+         `londra list units` prints them.\n\n\
+         The pictures show a German shepherd from the front and at three quarters with the unit at 0, 0.5 and 1, arrows from where landmarks were to where they are.\n\
+         `londra atlas --units --breed german_shepherd --size 84x84 -o docs/dogfacs` draws them.\n\n",
+    );
+    let _ = writeln!(
+        out,
+        "## Rules\n\nWhat cannot be at once is resolved before a pose is made; the panel shows what was overruled.\n"
+    );
+    for rule in &units.rules {
+        let names: Vec<&str> = rule.units().iter().map(|&u| units.units[u].label.as_str()).collect();
+        let _ = writeln!(
+            out,
+            "- {}: {} Source: {}.",
+            names.join(", "),
+            sentence(&rule.why),
+            rule.source.trim_end_matches('.')
+        );
+    }
+    let mut group = None;
+    for unit in &units.units {
+        if group != Some(unit.group) {
+            let _ = writeln!(out, "\n## {}", sentence(unit.group.label()).trim_end_matches('.'));
+            group = Some(unit.group);
+        }
+        let _ = writeln!(out, "\n### {}: {}\n", unit.label, unit.name);
+        if !unit.drives.is_empty() {
+            let _ = writeln!(out, "![{} at 0, 0.5 and 1]({}/{}.png)\n", unit.label, "dogfacs", unit.id);
+        }
+        let _ = writeln!(
+            out,
+            "Id `{}`, {}.",
+            unit.id,
+            match unit.sides {
+                Sides::Each => "each side on its own",
+                Sides::Together => "both sides together",
+                Sides::Median => "one for the head",
+            }
+        );
+        if !unit.criterion.is_empty() {
+            let _ = writeln!(out, "Coded when {}.", unit.criterion.trim_end_matches('.'));
+        }
+        let of_muscles: Vec<String> = unit
+            .drives
+            .iter()
+            .filter_map(|d| match d.target {
+                Target::Muscle(m) => Some(format!("{} to {}", muscles.muscles[m].name, d.value)),
+                Target::Channel(_) => None,
+            })
+            .collect();
+        if !of_muscles.is_empty() {
+            let _ = writeln!(out, "Muscles: {}.", of_muscles.join(", "));
+        }
+        let of_joints: Vec<String> = unit
+            .drives
+            .iter()
+            .filter_map(|d| match d.target {
+                Target::Channel(c) => Some(format!("`{}` {}", c.id(), d.value)),
+                Target::Muscle(_) => None,
+            })
+            .collect();
+        if !of_joints.is_empty() {
+            let _ = writeln!(out, "Joints and soft parts: {}.", of_joints.join(", "));
+        }
+        if let Some(cycle) = &unit.cycle {
+            let _ = writeln!(out, "In time it swings {} times a second.", cycle.hz);
+        }
+        if !unit.clip.is_empty() {
+            let _ = writeln!(out, "As a clip: `{}`.", unit.clip);
+        }
+        let moves: Vec<String> = unit
+            .landmarks
+            .iter()
+            .map(|m| format!("{} {:?} {} to {} mm", m.0, m.1, m.2, m.3))
+            .chain(unit.gaps.iter().map(|g| format!("{} and {} {} to {} mm apart", g.0, g.1, g.2, g.3)))
+            .collect();
+        if !moves.is_empty() {
+            let _ = writeln!(out, "Landmarks at 1: {}.", moves.join("; "));
+        }
+        if !unit.lacks.is_empty() {
+            let _ = writeln!(out, "What this rig does not do: {}.", unit.lacks.trim_end_matches('.'));
+        }
+        let status = if unit.status == Known::Sourced { "sourced" } else { "constructed" };
+        let _ = writeln!(out, "Source ({status}): {}.", unit.source.trim_end_matches('.'));
+    }
+    let _ = writeln!(
+        out,
+        "\n## Limits of joints and soft parts\n\n| channel | joint | least | most | source |\n| --- | --- | ---: | ---: | --- |"
+    );
+    for &channel in Channel::ALL {
+        let spec = library.limits.of(channel);
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} | {} |",
+            channel.id(),
+            spec.joint,
+            spec.range.0,
+            spec.range.1,
+            spec.source
+        );
+    }
+    let _ = writeln!(out, "\n## Muscles\n\n| muscle | from | to | source |\n| --- | --- | --- | --- |");
+    let path = |anchors: &[Vec<String>]| anchors.iter().map(|a| a.join(" ")).collect::<Vec<_>>().join(", ");
+    for m in &muscles.muscles {
+        let _ = writeln!(out, "| {} | {} | {} | {} |", m.name, path(&m.path), m.insertion.join(" "), m.source);
+    }
+    out
+}
+
+#[test]
+fn manual_of_units_is_stale() {
+    let library = Library::embedded().unwrap_or_else(|e| panic!("{e}"));
+    keep("docs/dogfacs.md", &units_text(&library), "rigs/units.ron");
+}
+
 /// A figure that was to be filled in: capitals between two at-signs.
 fn open_places(text: &str) -> Vec<&str> {
     let is_open = |word: &&str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_uppercase());
@@ -240,6 +368,7 @@ fn a_page_shows_a_picture_that_is_not_there() {
         root.join("docs/head.md"),
         root.join("docs/parameters.md"),
         root.join("docs/breeds.md"),
+        root.join("docs/dogfacs.md"),
     ] {
         let text = std::fs::read_to_string(&page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
         for link in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {

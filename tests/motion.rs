@@ -667,7 +667,7 @@ fn hashes(library: &Library) -> String {
 #[test]
 fn a_pose_has_other_bits_than_the_committed_ones() {
     let made = hashes(&library());
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/motion_hashes.txt");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/pose_hashes.txt");
     if std::env::var_os("UPDATE_HASHES").is_some() {
         std::fs::write(file, &made).expect("a file that can be written");
         return;
@@ -676,7 +676,7 @@ fn a_pose_has_other_bits_than_the_committed_ones() {
     let differing: Vec<&str> = made.lines().filter(|line| !committed.lines().any(|c| c == *line)).collect();
     assert!(
         differing.is_empty() && made == committed,
-        "differs from tests/motion_hashes.txt:\n{}\nIf that is meant, run UPDATE_HASHES=1 cargo test --test motion and say why in CHANGELOG.md.",
+        "differs from tests/pose_hashes.txt:\n{}\nIf that is meant, run UPDATE_HASHES=1 cargo test --test motion and say why in CHANGELOG.md.",
         differing.join("\n")
     );
 }

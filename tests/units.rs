@@ -3,19 +3,18 @@
 //!
 //! `cargo test --test units -- --nocapture` prints where each landmark goes.
 
+use glam::Vec3;
 use londra::anatomy::{Breed, ParamTable, library};
 use londra::frame::{Layers, Pipeline};
 use londra::measure::{Side as Where, skin_landmarks};
 use londra::motion::{Activation, Axis, Group, Library, Sides};
 use londra::rig::{Deformed, Rig, deform};
-use glam::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Of every ear type and length of face.
-const BREEDS: [&str; 9] = [
-    "german_shepherd", "labrador", "pug", "borzoi", "bulldog", "beagle", "chihuahua", "saint_bernard", "bull_terrier",
-];
+const BREEDS: [&str; 9] =
+    ["german_shepherd", "labrador", "pug", "borzoi", "bulldog", "beagle", "chihuahua", "saint_bernard", "bull_terrier"];
 /// Beyond the row's bounds, millimetres on the 200 mm head and a part of the larger bound: heads differ in more than size.
 const SLACK: (f32, f32) = (0.6, 0.30);
 
@@ -94,10 +93,17 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
                 }
             }
             for gap in &unit.gaps {
-                let key = |id: &String| [Where::Median, Where::Left].map(|s| (id.clone(), s)).into_iter().find(|k| rest.contains_key(k)).expect("there");
+                let key = |id: &String| {
+                    [Where::Median, Where::Left]
+                        .map(|s| (id.clone(), s))
+                        .into_iter()
+                        .find(|k| rest.contains_key(k))
+                        .expect("there")
+                };
                 let (a, b) = (key(&gap.0), key(&gap.1));
                 let value = (posed[&a].distance(posed[&b]) - rest[&a].distance(rest[&b])) / unit_m;
-                let line = format!("{id:16} {:9} {} to {} {value:7.1} of {} to {}", unit.id, gap.0, gap.1, gap.2, gap.3);
+                let line =
+                    format!("{id:16} {:9} {} to {} {value:7.1} of {} to {}", unit.id, gap.0, gap.1, gap.2, gap.3);
                 println!("{line}");
                 if !bounds(gap.2, gap.3).contains(&value) {
                     wrong.push(line);

@@ -90,7 +90,13 @@ fn extensions(material: Material, fur: f32) -> Option<Map<String, Value>> {
         Material::Gum | Material::Tongue | Material::ThirdEyelid => {
             vec![("KHR_materials_clearcoat", clearcoat(0.5, 0.2))]
         }
-        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth | Material::Whisker | Material::Muscle => {
+        Material::Lip
+        | Material::Mouth
+        | Material::Cap
+        | Material::Bone
+        | Material::Tooth
+        | Material::Whisker
+        | Material::Muscle => {
             return None;
         }
     };

@@ -46,8 +46,16 @@ impl Layers {
     pub const NAMES: [&'static str; 8] = ["skin", "eyes", "whiskers", "muscles", "bone", "teeth", "mouth", "tongue"];
 
     /// Nothing.
-    pub const NONE: Layers =
-        Layers { skin: 0.0, eyes: false, whiskers: false, muscles: false, bone: false, teeth: false, mouth: false, tongue: false };
+    pub const NONE: Layers = Layers {
+        skin: 0.0,
+        eyes: false,
+        whiskers: false,
+        muscles: false,
+        bone: false,
+        teeth: false,
+        mouth: false,
+        tongue: false,
+    };
 
     /// The same and what is seen in an open mouth.
     #[must_use]

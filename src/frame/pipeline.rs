@@ -379,7 +379,8 @@ impl Pipeline {
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_into(&self.plan, &self.deformed.control, &mut skin.positions, &mut skin.normals);
         let pressed = &mut self.pressed;
-        self.is_wrinkled = self.level >= WRINKLED && self.rig.pressed(values, &self.pose, &mut self.deformed, &mut pressed[0]);
+        self.is_wrinkled =
+            self.level >= WRINKLED && self.rig.pressed(values, &self.pose, &mut self.deformed, &mut pressed[0]);
         if self.is_wrinkled {
             let [control, refined] = pressed;
             refined.resize(self.plan.n_vertices(), Vec3::ZERO);

@@ -108,9 +108,12 @@ impl MuscleTable {
             if read.muscles[..i].iter().any(|other| other.id == m.id) {
                 return Err(row(&m.id, "is there twice".into()));
             }
-            for (name, value, most) in
-                [("pull_mm", m.pull_mm, 40.0), ("reach_mm", m.reach_mm, 120.0), ("gather", m.gather, 1.0), ("width_mm", m.width_mm, 60.0)]
-            {
+            for (name, value, most) in [
+                ("pull_mm", m.pull_mm, 40.0),
+                ("reach_mm", m.reach_mm, 120.0),
+                ("gather", m.gather, 1.0),
+                ("width_mm", m.width_mm, 60.0),
+            ] {
                 if !(0.0..=most).contains(&value) {
                     return Err(row(&m.id, format!("{name} is {value}, allowed 0 to {most}")));
                 }

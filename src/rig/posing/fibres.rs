@@ -159,7 +159,10 @@ fn strap(path: &[Vec3], line: &Line, unit: f32, head: &Rigid, out: &mut Vec<Vec3
         let t = x - k as f32;
         let k = k as isize;
         let (p, q, r, s) = (at(k - 1), at(k), at(k + 1), at(k + 2));
-        0.5 * (2.0 * q + (r - p) * t + (2.0 * p - 5.0 * q + 4.0 * r - s) * (t * t) + (3.0 * (q - r) + s - p) * (t * t * t))
+        0.5 * (2.0 * q
+            + (r - p) * t
+            + (2.0 * p - 5.0 * q + 4.0 * r - s) * (t * t)
+            + (3.0 * (q - r) + s - p) * (t * t * t))
     };
     let is_chewing = line.kind == Kind::Chewing;
     let (width, thick) = (0.5 * line.width_mm * unit, THICK[usize::from(is_chewing)]);

@@ -38,7 +38,10 @@ impl Lips {
                         out.push((u32::from(v), w));
                     }
                 };
-                (5..15).flat_map(|j| own(i, j)).filter(|&v| v != NONE).for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
+                (5..15)
+                    .flat_map(|j| own(i, j))
+                    .filter(|&v| v != NONE)
+                    .for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
                 // The lining goes with the margin, so that it never hangs below it.
                 add(lining[i][1], 1.0);
                 add(lining[i][2], 0.9);

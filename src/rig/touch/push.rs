@@ -83,7 +83,7 @@ mod tests {
         let [a, b] = solved(&[Demand::of_two((0, 0.5), (1, 0.5), 1.0)]);
         assert!((a - 1.0).abs() < 1e-6 && (b - 1.0).abs() < 1e-6, "{a} {b}");
         // The second demand makes the first one needless.
-        let first = Demand::of_two((0, 1.0), (1, 0.0), 1.0);
+        let first = Demand::of_two((0, 1.0), (0, 0.0), 1.0);
         let [a] = solved(&[first, Demand { least: 3.0, ..first }, Demand { least: 2.0, ..first }]);
         assert!((a - 3.0).abs() < 1e-6, "{a}");
         // A corner: the nearest point of x + y ≥ 2 and x ≥ 1.5 is (1.5, 0.5).

@@ -55,12 +55,14 @@ pub struct Body<'a> {
     pub indices: &'a [u32],
 }
 
+/// Refined vertices of the median plane lie off it by less than this, metres.
+const MEDIAN: f32 = 1e-6;
+
 /// Spheres that cover the vertices that are `wanted`, added to `out`. Of a `symmetric` body the left half is covered and
 /// mirrored. Returns the fit that was kept to, which is the one asked for unless that took too many spheres.
 pub fn cover(body: Body, fit: Fit, symmetric: bool, wanted: impl Fn(Vec3) -> bool, out: &mut Vec<Sphere>) -> Fit {
-    // What lies in the median plane lies there to the bit.
-    let wanted: Vec<usize> =
-        (0..body.at.len()).filter(|&v| (!symmetric || body.at[v].x >= 0.0) && wanted(body.at[v])).collect();
+    let is_left = |p: Vec3| !symmetric || p.x > -MEDIAN;
+    let wanted: Vec<usize> = (0..body.at.len()).filter(|&v| is_left(body.at[v]) && wanted(body.at[v])).collect();
     let normals = normals(body);
     let faces = Faces::new(body);
     let balls: Vec<Sphere> =
