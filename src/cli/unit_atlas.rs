@@ -36,6 +36,7 @@ pub(super) fn run(args: &Atlas) -> Result<(), Failure> {
     let breed = rigs.breed(&args.breed)?;
     let rig = Arc::new(Rig::embedded(&rigs.table).map_err(Failure::work)?);
     let mut pipeline = Pipeline::new(rig.clone(), LEVEL).map_err(Failure::work)?;
+    pipeline.set_layers(pipeline.layers().with_open_mouth()).map_err(Failure::work)?;
     pipeline.set_hair(args.fur.hair.unwrap_or(0) as usize);
     let drawing = Drawing {
         background: Background::Plain(PAPER),

@@ -77,8 +77,7 @@ impl Activation {
     #[must_use]
     pub fn clamped(mut self) -> Self {
         for value in self.0.iter_mut().flatten() {
-            // The larger of a number and what is none is the number.
-            *value = value.max(0.0).min(1.0);
+            *value = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
         }
         self
     }

@@ -109,7 +109,7 @@ impl Clip {
     /// # Errors
     /// Syntax with line and column; a name that nothing has, a side of what has but one, keys out of order or range.
     pub fn parse(file: &str, text: &str, units: &UnitTable, muscles: &MuscleTable) -> Result<Self, MotionError> {
-        let read: File = ron::from_str(text).map_err(|e| MotionError::Syntax(file.to_owned(), e))?;
+        let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         MotionError::check_version(file, read.version)?;
         if !(read.seconds > 0.0 && read.seconds <= MOST_SECONDS) {
             let problem = format!("seconds is {}, allowed above 0 to {MOST_SECONDS}", read.seconds);

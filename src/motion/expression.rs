@@ -84,7 +84,7 @@ impl Expression {
     /// # Errors
     /// Syntax with line and column; a unit that nothing has or that cannot be one-sided, a number out of its range.
     pub fn parse(file: &str, text: &str, units: &UnitTable) -> Result<Self, MotionError> {
-        let read: File = ron::from_str(text).map_err(|e| MotionError::Syntax(file.to_owned(), e))?;
+        let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         MotionError::check_version(file, read.version)?;
         let parts = read.units.into_iter().map(|row| row.read(file, units)).collect::<Result<Vec<_>, _>>()?;
         let expression = Self { id: read.id, label: read.label, still_s: read.still_s, parts };

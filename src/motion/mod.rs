@@ -53,7 +53,7 @@ pub use unit::{
 pub enum MotionError {
     /// The text is not RON of the right form.
     #[error("{0}:{1}")]
-    Syntax(String, ron::error::SpannedError),
+    Syntax(String, Box<ron::error::SpannedError>),
     /// A row is wrong.
     #[error("{file}: {id}: {problem}")]
     Row {
@@ -67,6 +67,11 @@ pub enum MotionError {
 }
 
 impl MotionError {
+    /// A text that is not RON of the right form.
+    pub(crate) fn syntax(file: &str, error: ron::error::SpannedError) -> Self {
+        Self::Syntax(file.to_owned(), Box::new(error))
+    }
+
     /// A mistake in a row.
     pub(crate) fn row(file: &str, id: &str, problem: impl Into<String>) -> Self {
         Self::Row { file: file.to_owned(), id: id.to_owned(), problem: problem.into() }

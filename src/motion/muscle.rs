@@ -96,7 +96,7 @@ impl MuscleTable {
     /// # Errors
     /// Syntax with line and column; too many muscles, an id that is there twice, a number out of its range.
     pub fn parse(file: &str, text: &str) -> Result<Self, MotionError> {
-        let read: File = ron::from_str(text).map_err(|e| MotionError::Syntax(file.to_owned(), e))?;
+        let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         let row = |id: &str, problem: String| MotionError::Row { file: file.to_owned(), id: id.to_owned(), problem };
         if read.version != 1 {
             return Err(row("version", format!("is {}, this program reads 1", read.version)));

@@ -39,7 +39,7 @@ impl JointLimits {
     /// # Errors
     /// Syntax with line and column; a channel that is missing, there twice, or whose range does not hold its rest, 0.
     pub fn parse(file: &str, text: &str) -> Result<Self, MotionError> {
-        let read: File = ron::from_str(text).map_err(|e| MotionError::Syntax(file.to_owned(), e))?;
+        let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         let row = |id: &str, problem: String| MotionError::Row { file: file.to_owned(), id: id.to_owned(), problem };
         if read.version != 1 {
             return Err(row("version", format!("is {}, this program reads 1", read.version)));

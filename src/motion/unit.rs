@@ -254,7 +254,7 @@ impl UnitTable {
     /// Syntax with line and column; too many units, an id that is there twice, a name that nothing has, a number that is
     /// none, a unit that neither drives anything nor names a clip.
     pub fn parse(file: &str, text: &str, muscles: &MuscleTable) -> Result<Self, MotionError> {
-        let read: File = ron::from_str(text).map_err(|e| MotionError::Syntax(file.to_owned(), e))?;
+        let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         MotionError::check_version(file, read.version)?;
         if read.units.len() > Self::MOST {
             let problem = format!("there are {}, at most {}", read.units.len(), Self::MOST);
