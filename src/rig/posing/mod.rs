@@ -128,6 +128,16 @@ impl PosePlan {
         &self.neck
     }
 
+    /// The least of these: how much of the head's turn the neck's cut end makes.
+    pub fn neck_end_weight(&self) -> f32 {
+        neck::END
+    }
+
+    /// Where the neck's cut end is in a pose, from the head at rest; `head`: [`super::Rig::of_head`].
+    pub fn neck_end(&self, head: &OfHead, pose: &Pose) -> Rigid {
+        neck::turned(head.pivot, head.unit, &self.limits.clamped(pose), neck::END)
+    }
+
     /// What depends on the head; `half`: its control positions at rest, metres.
     pub(super) fn measure(
         &self,

@@ -7,7 +7,7 @@ use crate::rig::handles::{Handles, NONE};
 use glam::{EulerRot, Mat3, Vec3, vec3};
 
 /// How much of the head's turn the cut end of the neck makes: it lies in the middle of the vertebrae that share it.
-const END: f32 = 0.35;
+pub(super) const END: f32 = 0.35;
 const ROUNDS: usize = 60;
 
 /// Weight of the head's turn for each vertex of the whole mesh.
