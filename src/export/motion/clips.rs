@@ -6,7 +6,7 @@ use super::mix::Mix;
 use super::puppet::Puppet;
 use super::targets::Target;
 use super::{Selection, alone, asked, names};
-use crate::motion::{Activation, Library, Moment, Pose};
+use crate::motion::{Activation, Drive, Library, Moment, Pose, Side, Sides, Unit};
 use glam::{Quat, Vec3};
 
 /// Samples of a second.
@@ -66,7 +66,7 @@ pub(super) fn bake(
         asked: library.units.resolve(&moment.units, |_| ()),
     };
     let mut out = Vec::new();
-    for &(unit, side) in &selection.units {
+    for (unit, side) in selection.units.iter().flat_map(|&(unit, side)| reels(&library.units.units[unit], unit, side)) {
         let rise = |time: f64| (1.0 - (time / REEL - 1.0).abs()) as f32;
         let samples = times(2.0 * REEL).into_iter().map(|time| {
             let asked = asked(unit, side, rise(time));
@@ -84,6 +84,15 @@ pub(super) fn bake(
         out.extend(record(clip.id.clone(), clip.repeats, samples.collect()));
     }
     out
+}
+
+/// A reel for both sides at once, unless they pull one thing two ways.
+fn reels(unit: &Unit, number: usize, side: Side) -> Vec<(usize, Side)> {
+    let opposes = |drive: &Drive| drive.target.is_median() && drive.target.is_lateral();
+    match (unit.sides, side) {
+        (Sides::Each, Side::Both) if unit.drives.iter().any(opposes) => vec![(number, Side::Left), (number, Side::Right)],
+        _ => vec![(number, side)],
+    }
 }
 
 /// From 0 to the end, both among them.
