@@ -242,7 +242,7 @@ fn notation_means_something_else_when_it_is_read_back() {
 fn wrong_notation_is_read_or_its_mistake_is_not_told() {
     let units = &library().units;
     let told = |text: &str| units.parse_notation(text).expect_err(text).to_string();
-    assert_eq!(told("101+112"), "character 5: there is no unit '112'; did you mean AU110 or AU12 or AU116?");
+    assert_eq!(told("101+112"), "character 5: there is no unit '112' (did you mean AU110 or AU12 or AU116?)");
     assert_eq!(told("101++12"), "character 5: a code such as 101, 12B or EAD103L is missing");
     assert_eq!(told("101+"), "character 5: a code such as 101, 12B or EAD103L is missing");
     assert_eq!(told("12+109"), "character 4: 109 is not there alone: 109+110 is one unit");
@@ -280,7 +280,7 @@ fn a_wrong_table_is_read_or_its_row_is_not_named() {
     assert_eq!(told("id: \"AU145\"", "id: \"AU143\""), "u.ron: AU143: is there twice");
     assert!(
         told("(\"AU27\", 57)", "(\"AU28\", 57)")
-            .starts_with("u.ron: AU28: is no unit; did you mean AU25 or AU26 or AU27")
+            .starts_with("u.ron: AU28: is no unit (did you mean AU25 or AU26 or AU27?)")
     );
     assert!(told("version: 1", "version: 2").contains("this program reads 1"));
     assert!(told("hz: 5.5", "hz: 5500").contains("allowed 0.1 to 20"));
@@ -443,7 +443,7 @@ fn a_wrong_clip_or_expression_is_read_or_its_row_is_not_named() {
             format!("(version: 1, id: \"c\", label: \"C\", seconds: 2, layers: [(tracks: [{tracks}])], source: \"\")");
         Clip::parse("c.ron", &text, &units, &muscles).expect_err(tracks).to_string()
     };
-    assert!(clip("(of: \"AU28\", keys: [(0, 0)])").starts_with("c.ron: AU28: is no unit; did you mean"));
+    assert!(clip("(of: \"AU28\", keys: [(0, 0)])").starts_with("c.ron: AU28: is no unit (did you mean"));
     assert!(clip("(of: \"AU26\", side: Left, keys: [(0, 0)])").contains("one side alone"));
     assert!(clip("(of: \"AU26\", keys: [])").contains("no keys"));
     assert!(clip("(of: \"AU26\", keys: [(1, 0), (1, 1)])").contains("rising times from 0 to 2"));
@@ -604,4 +604,20 @@ fn going_over_from_clip_to_clip_jumps() {
     assert!(library.pose(&act.asked(&library, 6.5), 6.5, |_| ()).is_rest());
     act.player.forget_before(6.5);
     assert!(act.player.cues().is_empty());
+}
+
+#[test]
+fn hanging_ears_stick_to_a_head_that_looks_down_or_standing_ones_fall() {
+    let library = library();
+    let bend = |ear_hang: f32, ear_slack: f32, word: &str| {
+        let mut act = Act::new(Build { ear_hang, ear_slack, flew_slack: 0.0 });
+        act.units = with(&library.units, &[(word, 0.7)]);
+        let pose = act.pose(&library, 0.0, |_| Stimulus::default(), |_| ());
+        (pose.channel(Channel::EarBend)[0], pose.channel(Channel::EarSway))
+    };
+    assert!(bend(1.0, 1.0, "AD54").0 < -15.0, "forward, as the head looks down");
+    assert!(bend(1.0, 1.0, "AD53").0 > 15.0, "back, as it looks up");
+    assert!(bend(-1.0, 0.0, "AD54").0.abs() < 0.1);
+    let (_, [left, right]) = bend(1.0, 1.0, "AD55");
+    assert!(left > 8.0 && right < -8.0, "the crown goes to the left shoulder: both tips stay behind on the left");
 }

@@ -25,7 +25,8 @@ use londra::math::rng::Rng;
 use londra::measure::MAY_FOLD;
 use londra::mesh::{DedgeMesh, shapes};
 use londra::rig::deform::{ROUNDS, orbit_axes};
-use londra::rig::{Deformed, Eye, Pose};
+use londra::motion::{Channel, Pose};
+use londra::rig::{Deformed, Eye};
 use londra::subdiv::{Evaluator, Plan, PlanOptions, Scheme};
 use settings::{SPANNING, Setting, World, sweeps_all};
 use std::collections::BTreeMap;
@@ -200,7 +201,7 @@ impl<'a> Checker<'a> {
             }
         }
 
-        world.rig.pose(&setting.values, &Pose { lids_closed: [1.0, 1.0] }, &mut self.head);
+        world.rig.pose(&setting.values, &Pose::default().with(Channel::LidClosed, 1.0), &mut self.head);
         let shape = world.rig.proportions(&setting.values);
         let axes = orbit_axes(&shape).map(|axis| shape.direction(axis).as_dvec3());
         let middle = &mut self.levels[1];
@@ -355,7 +356,7 @@ fn a_lid_closes_on_one_side_alone_or_opens_on_the_way() {
         world.rig.deform(&breed.values, ROUNDS, &mut head);
         let rest = head.control.clone();
         let mut pose = |left: f32, right: f32| {
-            world.rig.pose(&breed.values, &Pose { lids_closed: [left, right] }, &mut head);
+            world.rig.pose(&breed.values, &Pose::default().with_sides(Channel::LidClosed, [left, right]), &mut head);
             head.control.clone()
         };
         assert_eq!(bits(&pose(0.0, 0.0)), bits(&rest), "{}: open lids move", breed.id);

@@ -479,3 +479,76 @@ fn a_slider_of_the_coat_changes_the_breed_or_nothing() {
     harness.run();
     assert_eq!(harness.state().condition, Condition::default());
 }
+
+/// The hashes of the head as it is posed.
+fn posed(state: &mut EditorState) -> StageHashes {
+    let rig = Arc::new(Rig::embedded(&state.table).unwrap());
+    let mut pipeline = Pipeline::new(rig, state.level()).unwrap();
+    pipeline.set_pose(state.pose());
+    pipeline.update(state.breed());
+    pipeline.hashes()
+}
+
+#[test]
+fn the_mixer_moves_nothing_or_cannot_be_undone() {
+    let mut harness = harness();
+    let rest = posed(harness.state_mut());
+    harness.get_by_label("Motion").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::Slider, "AU27 Mouth stretch").set_value_accesskit(0.6);
+    harness.run();
+    let open = posed(harness.state_mut());
+    assert_ne!(open.positions, rest.positions);
+    assert_eq!(harness.state().motion.typed, "27C");
+    harness.get_by_role_and_label(Role::Slider, "AU26 Jaw drop").set_value_accesskit(0.5);
+    harness.run();
+    posed(harness.state_mut());
+    harness.run();
+    assert!(harness.query_by_label_contains("AU26 0.50 to 0.00 by AU27").is_some(), "what is overruled is shown");
+    harness.get_by_role_and_label(Role::Label, "AU101 Inner brow raiser").click();
+    harness.run();
+    assert_eq!(harness.state().motion.typed, "101", "a click on the name shows the unit alone");
+    harness.get_by_label("Reset motion").click();
+    harness.run();
+    assert_eq!(posed(harness.state_mut()), rest);
+}
+
+#[test]
+fn typed_notation_moves_nothing_or_its_mistake_is_not_shown() {
+    let mut harness = harness();
+    harness.get_by_label("Motion").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::TextInput, "FACS").focus();
+    harness.run();
+    harness.get_by_role_and_label(Role::TextInput, "FACS").type_text("101+EAD103LB");
+    harness.run();
+    let units = &harness.state().motion.library.units;
+    let (brow, ear) = (units.index_of("AU101").unwrap(), units.index_of("EAD103").unwrap());
+    let asked = harness.state().motion.units();
+    assert_eq!((asked.get(brow), asked.get(ear)), ([1.0; 2], [0.4, 0.0]));
+    harness.get_by_role_and_label(Role::TextInput, "FACS").type_text("+");
+    harness.run();
+    assert!(harness.query_by_label_contains("a code such as 101").is_some());
+}
+
+#[test]
+fn a_clip_does_not_play_stop_or_step() {
+    let mut harness = harness();
+    harness.get_by_label("Motion").click();
+    harness.run();
+    let yawn = harness.state().motion.library.clips.iter().position(|c| c.id == "yawn").unwrap();
+    harness.state_mut().motion.set_clip(Some(yawn));
+    // A playing clip wants picture after picture: it never comes to rest by itself.
+    (0..30).for_each(|_| harness.step());
+    let (time, _) = harness.state().motion.timeline();
+    assert!(time > 0.1, "{time}");
+    harness.get_by_label("Pause").click();
+    harness.run_steps(4);
+    harness.run();
+    let stopped = harness.state().motion.timeline().0;
+    harness.run();
+    assert_eq!(harness.state().motion.timeline().0, stopped);
+    harness.key_press(egui::Key::Period);
+    harness.run();
+    assert!(harness.state().motion.timeline().0 > stopped);
+}

@@ -30,6 +30,15 @@ pub(super) fn zoom(camera: &mut Camera, steps: f32, x: f32, y: f32, height: f32)
     camera.target += (right * x - up * y) * gained;
 }
 
+/// Where a dog looks that looks at a place of the picture, (x, y) heights of it to the right of the middle and down: degrees
+/// to its left and up from straight ahead. The place is half way between the target and the camera.
+pub(super) fn looked_at(camera: &Camera, x: f32, y: f32) -> [f32; 2] {
+    let [right, up, back] = camera.axes_in_world();
+    let way = 0.5 * camera.distance * back + (right * x - up * y) * camera.height_at_target();
+    let way = camera.world_from_head().transpose() * way;
+    [ops::atan2(way.x, way.z), ops::atan2(way.y, ops::hypot(way.x, way.z))].map(f32::to_degrees)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -43,6 +52,16 @@ mod tests {
         zoom(&mut camera, 3.0, 100.0, 60.0, 500.0);
         let now = camera.target + (right * 100.0 - up * 60.0) * camera.height_at_target() / 500.0;
         assert!((point - now).length() < 1e-5);
+    }
+
+    #[test]
+    fn a_dog_looks_away_from_the_pointer() {
+        let mut camera = Camera::at(View::Side, Some(0.0), Lens::default());
+        let [turn, lift] = looked_at(&camera, 0.0, 0.0);
+        assert!((turn - 90.0).abs() < 1e-3 && lift.abs() < 1e-3, "from its left: {turn} {lift}");
+        camera.azimuth = 0.0;
+        let [turn, lift] = looked_at(&camera, 0.3, -0.3);
+        assert!(turn > 5.0 && lift > 5.0, "to the right of the picture, which is its left, and up: {turn} {lift}");
     }
 
     #[test]

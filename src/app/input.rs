@@ -18,6 +18,9 @@ pub const KEYS: &[(&str, &str)] = &[
     ("W", "wireframe"),
     ("G", "control mesh"),
     ("M", "measurements of the head"),
+    ("U", "what the head does: units, expressions, clips"),
+    ("Space", "play, pause"),
+    (", and .", "one frame back, one on"),
     ("+, −", "finer, coarser"),
     ("Ctrl+Z", "undo"),
     ("Ctrl+Shift+Z, Ctrl+Y", "redo"),
@@ -40,6 +43,10 @@ pub fn pointer(state: &mut EditorState, ui: &egui::Ui, picture: &egui::Response)
         state.light_turn += moved.x * 0.01;
     } else if picture.dragged_by(PointerButton::Primary) {
         camera_control::orbit(&mut state.camera, moved.x, moved.y);
+    }
+    if state.motion.follows_pointer {
+        let from_middle = picture.hover_pos().map(|at| (at - picture.rect.center()) / height.max(1.0));
+        state.motion.stimulus.target = from_middle.map(|v| camera_control::looked_at(&state.camera, v.x, v.y));
     }
     if let Some(at) = picture.hover_pos() {
         let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
@@ -87,6 +94,18 @@ pub fn keys(state: &mut EditorState, ctx: &egui::Context) {
     }
     if pressed(Key::M) {
         state.measures.is_open = !state.measures.is_open;
+    }
+    if pressed(Key::U) {
+        state.toggle_motion();
+    }
+    if pressed(Key::Space) {
+        state.motion.is_playing = !state.motion.is_playing;
+    }
+    if pressed(Key::Comma) {
+        state.motion.step(-1);
+    }
+    if pressed(Key::Period) {
+        state.motion.step(1);
     }
     if pressed(Key::Plus) || pressed(Key::Equals) {
         state.set_level(state.level() + 1);

@@ -13,6 +13,7 @@ mod host;
 pub mod input;
 mod measure;
 mod measures;
+pub mod motion;
 pub mod panels;
 mod run;
 mod scene;

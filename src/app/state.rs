@@ -3,9 +3,11 @@
 use super::chance::Chance;
 use super::history::History;
 use super::measures::Measures;
+use super::motion::Motion;
 use crate::anatomy::{Breed, ParamTable};
 use crate::coat::Condition;
 use crate::frame::Layers;
+use crate::motion::Pose;
 use crate::render::{Background, Camera, Lens, Preset, Shading, View};
 use glam::Vec3;
 use std::collections::{BTreeMap, VecDeque};
@@ -175,6 +177,8 @@ pub struct EditorState {
     pub chance: Chance,
     /// What a vet would measure on the head that is shown.
     pub measures: Measures,
+    /// What the head does.
+    pub motion: Motion,
     /// What is looked for among the measures.
     pub search: String,
     /// Show only measures that were changed.
@@ -222,6 +226,7 @@ impl EditorState {
             background: Preset::default().background(),
             chance: Chance::default(),
             measures: Measures::default(),
+            motion: Motion::new().expect("the program's own tables, which a test reads"),
             search: String::new(),
             only_changed: false,
             shows_keys: false,
@@ -525,6 +530,17 @@ impl EditorState {
         }
         self.preset = preset;
         self.background = preset.background();
+    }
+
+    /// Shows or hides what the head does; a mouth that may open has something in it.
+    pub fn toggle_motion(&mut self) {
+        self.motion.is_open = !self.motion.is_open;
+        self.layers = self.layers.with_open_mouth();
+    }
+
+    /// What the head does at this moment.
+    pub fn pose(&mut self) -> Pose {
+        self.motion.pose(&self.table, &self.shown)
     }
 
     /// Puts the camera where it was at the start.

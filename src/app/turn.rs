@@ -103,6 +103,7 @@ impl Turn {
             self.state.complain(e.to_string());
         }
         self.pipeline.set_hair(self.state.n_strands as usize);
+        self.pipeline.set_pose(self.state.pose());
         let frame = self.pipeline.update(self.state.breed());
         // Turning the camera leaves the head as it is: the last time that it moved is what is worth knowing.
         let has_moved = frame.revisions.shape != self.shape;

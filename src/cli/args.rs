@@ -164,7 +164,7 @@ pub(super) struct Scene {
     #[arg(long, value_name = "N")]
     pub samples: Option<Samples>,
     /// What is there, with commas between: skin, eyes, whiskers, bone, teeth, mouth, tongue; skin=0.3 is seen
-    /// through; without it, what the preset has
+    /// through; without it, what the preset has, and what is seen in an open mouth where the head is asked to move
     #[arg(long, value_name = "A,B,C", value_parser = Layers::parse)]
     pub layers: Option<Layers>,
     #[command(flatten)]
@@ -197,8 +197,16 @@ pub(super) struct Motion {
     #[arg(long, value_name = "SEED", num_args = 0..=1, default_missing_value = "0")]
     pub life: Option<u64>,
     /// Seconds since clips, expressions and life began, 0 to 3600; without it clips and life are at their beginning
-    #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
     pub time: Option<f64>,
+}
+
+impl Motion {
+    /// Whether anything was asked for.
+    pub(super) fn is_asked_for(&self) -> bool {
+        let Self { units, facs, expressions, clips, life, time: _ } = self;
+        !(units.is_empty() && facs.is_none() && expressions.is_empty() && clips.is_empty() && life.is_none())
+    }
 }
 
 /// How much hair, and what it is like today.

@@ -6,7 +6,6 @@ use super::rigs::Rigs;
 use super::{Failure, output, subject};
 use crate::export::motion::{Motion, Selection};
 use crate::export::{GlbOptions, Textures, to_glb};
-use crate::frame::Layers;
 use serde_json::json;
 
 /// Writes one head as binary glTF.
@@ -15,24 +14,21 @@ pub(super) fn run(args: &Export) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    pipeline.set_uv(true).map_err(Failure::work)?;
     let director = Director::new(&args.motion, Lids::default())?;
-    director.tell_overruled();
-    let pose = director.pose(&rigs, &breed);
     let selection = Selection::parse(&director.library, &args.moving_units, &args.moving_clips)
         .map_err(|error| Failure::Use(format!("{error}; 'londra list' names units, expressions and clips")))?;
-    let motion = if selection.is_empty() {
-        None
-    } else if pose.is_rest() {
-        // An open mouth shows what is in it.
-        let inside = Layers { teeth: true, mouth: true, tongue: true, ..Layers::default() };
-        pipeline.set_layers(inside).map_err(Failure::work)?;
-        Some(Motion::bake(&mut pipeline, &breed, &director.library, &selection))
-    } else {
-        let both = "--units and --clips make a head at rest that moves; leave out what poses it, or --units and --clips";
+    if args.motion.is_asked_for() && !selection.is_empty() {
+        let both = "--units and --clips write a head at rest that can move: leave out what poses it, or the two";
         return Err(Failure::Use(both.into()));
-    };
-    pipeline.set_pose(pose);
+    }
+    if args.motion.is_asked_for() || !selection.is_empty() {
+        pipeline.set_layers(pipeline.layers().with_open_mouth()).map_err(Failure::work)?;
+    }
+    pipeline.set_uv(true).map_err(Failure::work)?;
+    director.tell_overruled();
+    let bake = || Motion::bake(&mut pipeline, &breed, &director.library, &selection);
+    let motion = (!selection.is_empty()).then(bake);
+    pipeline.set_pose(director.pose(&rigs, &breed));
     pipeline.update(&breed);
     let frame = pipeline.frame();
     let textures = match (args.textures, pipeline.canvas()) {

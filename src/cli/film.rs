@@ -40,7 +40,7 @@ pub(super) fn run(args: &Render) -> Result<(), Failure> {
     let mut reel = Reel::open(args)?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    super::picture::prepared(&mut pipeline, &args.scene)?;
+    super::picture::prepared(&mut pipeline, &args.scene, &args.motion)?;
     let mut offscreen = offscreen()?;
 
     let time = |frame: u32| f64::from(frame) / f64::from(args.fps);

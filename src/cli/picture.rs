@@ -1,6 +1,6 @@
 //! `londra render` and `londra sheet`.
 
-use super::args::{Render, Scene, Sheet as SheetArgs, Wires};
+use super::args::{Motion, Render, Scene, Sheet as SheetArgs, Wires};
 use super::motion::Director;
 use super::rigs::Rigs;
 use super::{Failure, film, output, subject};
@@ -30,7 +30,7 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let director = Director::new(&args.motion, args.scene.lids_closed)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    prepared(&mut pipeline, &args.scene)?;
+    prepared(&mut pipeline, &args.scene, &args.motion)?;
     director.tell_overruled();
     pipeline.set_pose(director.pose(&rigs, &breed));
     let mut offscreen = offscreen()?;
@@ -52,8 +52,8 @@ pub(super) fn render(args: &Render) -> Result<(), Failure> {
 }
 
 /// Gives the frames of one head what the scene shows of it.
-pub(super) fn prepared(pipeline: &mut Pipeline, scene: &Scene) -> Result<(), Failure> {
-    pipeline.set_layers(layers(scene)).map_err(Failure::work)?;
+pub(super) fn prepared(pipeline: &mut Pipeline, scene: &Scene, motion: &Motion) -> Result<(), Failure> {
+    pipeline.set_layers(layers(scene, motion)).map_err(Failure::work)?;
     pipeline.set_hair(hair(scene, HAIR) as usize);
     Ok(())
 }
@@ -64,7 +64,7 @@ pub(super) fn drawing(scene: &Scene, camera: Camera) -> Drawing {
         background: background(scene),
         preset: scene.preset,
         samples: scene.samples.unwrap_or_default(),
-        skin_opacity: layers(scene).skin,
+        skin_opacity: layers(scene, &Motion::default()).skin,
         shading: shading(scene),
         n_strands: hair(scene, HAIR),
         condition: scene.fur.condition(),
@@ -123,7 +123,7 @@ pub(super) fn sheet(args: &SheetArgs) -> Result<(), Failure> {
     }
     for preset in presets {
         let scene = Scene { preset, ..args.scene };
-        let layers = layers(&scene);
+        let layers = layers(&scene, &args.motion);
         pipeline.set_layers(layers).map_err(Failure::work)?;
         let n_strands = strands(&scene);
         pipeline.set_hair(n_strands as usize);
@@ -177,8 +177,11 @@ fn background(scene: &Scene) -> Background {
     scene.background.map_or_else(|| scene.preset.background(), |ground| ground.of(scene.preset))
 }
 
-fn layers(scene: &Scene) -> Layers {
-    scene.layers.unwrap_or_else(|| scene.preset.layers())
+/// Those that were asked for, or those of the preset; a mouth that may open has something in it.
+fn layers(scene: &Scene, motion: &Motion) -> Layers {
+    let usual = scene.preset.layers();
+    let usual = if motion.is_asked_for() { usual.with_open_mouth() } else { usual };
+    scene.layers.unwrap_or(usual)
 }
 
 /// The place of a landmark by its id, with L or R behind it where a side is meant; else of two the left one.

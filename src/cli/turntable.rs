@@ -47,7 +47,7 @@ pub(super) fn run(args: &Turntable) -> Result<(), Failure> {
     let rigs = Rigs::open()?;
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
-    prepared(&mut pipeline, &args.scene)?;
+    prepared(&mut pipeline, &args.scene, &args.motion)?;
     let director = Director::new(&args.motion, args.scene.lids_closed)?;
     director.tell_overruled();
     pipeline.set_pose(director.pose(&rigs, &breed));

@@ -25,6 +25,7 @@ pub(super) const fn name(material: Material) -> &'static str {
         Material::ThirdEyelid => "third_eyelid",
         Material::Tears => "tears",
         Material::Whisker => "whisker",
+        Material::Muscle => "muscle",
     }
 }
 
@@ -42,7 +43,7 @@ pub(super) fn material(material: Material, fur: f32, maps: Option<&Maps>) -> jso
     let roughness = match material {
         Material::Coat | Material::Cap => 0.95,
         Material::Lip | Material::Bone | Material::Tongue | Material::Whisker => 0.5,
-        Material::Nose | Material::Mouth => 0.4,
+        Material::Nose | Material::Mouth | Material::Muscle => 0.4,
         Material::Gum => 0.35,
         Material::Tooth | Material::ThirdEyelid => 0.25,
         Material::Sclera | Material::Iris | Material::Pupil | Material::Tears => 0.1,
@@ -89,7 +90,7 @@ fn extensions(material: Material, fur: f32) -> Option<Map<String, Value>> {
         Material::Gum | Material::Tongue | Material::ThirdEyelid => {
             vec![("KHR_materials_clearcoat", clearcoat(0.5, 0.2))]
         }
-        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth | Material::Whisker => {
+        Material::Lip | Material::Mouth | Material::Cap | Material::Bone | Material::Tooth | Material::Whisker | Material::Muscle => {
             return None;
         }
     };

@@ -9,6 +9,8 @@ pub struct Layers {
     pub eyes: bool,
     /// Whiskers.
     pub whiskers: bool,
+    /// Muscles of the face, as fibres.
+    pub muscles: bool,
     /// Skull and mandible.
     pub bone: bool,
     /// Crowns of the teeth.
@@ -41,11 +43,17 @@ pub enum LayersError {
 
 impl Layers {
     /// The names that [`Layers::parse`] knows.
-    pub const NAMES: [&'static str; 7] = ["skin", "eyes", "whiskers", "bone", "teeth", "mouth", "tongue"];
+    pub const NAMES: [&'static str; 8] = ["skin", "eyes", "whiskers", "muscles", "bone", "teeth", "mouth", "tongue"];
 
     /// Nothing.
     pub const NONE: Layers =
-        Layers { skin: 0.0, eyes: false, whiskers: false, bone: false, teeth: false, mouth: false, tongue: false };
+        Layers { skin: 0.0, eyes: false, whiskers: false, muscles: false, bone: false, teeth: false, mouth: false, tongue: false };
+
+    /// The same and what is seen in an open mouth.
+    #[must_use]
+    pub const fn with_open_mouth(self) -> Self {
+        Self { teeth: true, mouth: true, tongue: true, ..self }
+    }
 
     /// From a list with commas between: `bone,teeth,skin=0.3`. What is not named is not there.
     ///
@@ -64,6 +72,7 @@ impl Layers {
                 (name, Some(_)) if Self::NAMES.contains(&name) => return Err(LayersError::Solid(word.to_owned())),
                 ("eyes", None) => layers.eyes = true,
                 ("whiskers", None) => layers.whiskers = true,
+                ("muscles", None) => layers.muscles = true,
                 ("bone", None) => layers.bone = true,
                 ("teeth", None) => layers.teeth = true,
                 ("mouth", None) => layers.mouth = true,

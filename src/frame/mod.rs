@@ -6,6 +6,7 @@ mod eyeball;
 mod eyelids;
 mod layers;
 mod mouth;
+mod muscles;
 mod parts;
 mod pipeline;
 mod skeleton;
@@ -13,6 +14,7 @@ mod skin;
 mod uv;
 mod values;
 mod whiskers;
+mod wrinkles;
 
 pub use canvas::Canvas;
 pub use eyeball::Eyeball;

@@ -44,6 +44,8 @@ pub enum Material {
     Tears,
     /// Whiskers.
     Whisker,
+    /// Muscle.
+    Muscle,
 }
 
 /// A run of indices with one material.
@@ -107,7 +109,7 @@ pub struct Revisions {
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
     /// In the written order, those of the layers that are shown: `skin`, `neck_cap`; `eye_L`, `eye_R`, `third_eyelid_L`,
-    /// `third_eyelid_R`, `tears_L`, `tears_R`; `whiskers`; `skull`, `mandible`; `teeth_upper`, `teeth_lower`; `gums_upper`
+    /// `third_eyelid_R`, `tears_L`, `tears_R`; `whiskers`; `muscles`; `skull`, `mandible`; `teeth_upper`, `teeth_lower`; `gums_upper`
     /// with the palate, `gums_lower` with the floor of the mouth; `tongue`.
     pub parts: Vec<Part<'a>>,
     /// Control positions of the skin, metres; length: control vertices.

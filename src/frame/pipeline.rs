@@ -10,11 +10,13 @@ use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
 use super::layers::Layers;
 use super::mouth::MouthParts;
+use super::muscles::MuscleParts;
 use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
 use super::skeleton::Skeleton;
 use super::uv::Uv;
 use super::values::Values;
 use super::whiskers::WhiskerParts;
+use super::wrinkles::wrinkle;
 use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Groom, Root};
@@ -27,6 +29,9 @@ use std::sync::Arc;
 
 /// Deepest level of subdivision that a pipeline makes.
 pub const MAX_LEVEL: u32 = 5;
+
+/// The level from which on vertices are dense enough for wrinkles.
+const WRINKLED: u32 = 3;
 
 /// A head unit of the base head, metres.
 const CENTIMETRE: f32 = 0.01;
@@ -60,6 +65,10 @@ pub struct Pipeline {
     control_leathers: Vec<Vec3>,
     control_bare: Vec<Vec3>,
     control_surface: Vec<Vec3>,
+    /// How much the skin is pressed together, at control vertices and on the refined skin.
+    pressed: [Vec<Vec3>; 2],
+    /// Whether the last frame's skin has more form than its control positions tell.
+    is_wrinkled: bool,
     parts: [Values; 4],
     eyelids: EyelidParts,
     /// Left and right.
@@ -70,6 +79,8 @@ pub struct Pipeline {
     uv: bool,
     /// Once bone or teeth are asked for.
     skeleton: Option<Skeleton>,
+    /// Once they are asked for.
+    muscles: Option<MuscleParts>,
     /// Once mouth or tongue are asked for.
     mouth: Option<MouthParts>,
     dyes: Dyes,
@@ -119,6 +130,8 @@ impl Pipeline {
             control_leathers: vec![Vec3::ZERO; n],
             control_bare: vec![Vec3::ZERO; n],
             control_surface: vec![Vec3::ZERO; n],
+            pressed: [vec![Vec3::ZERO; n], Vec::new()],
+            is_wrinkled: false,
             parts,
             eyelids: EyelidParts::new(&rig)?,
             eyeballs: Default::default(),
@@ -126,6 +139,7 @@ impl Pipeline {
             layers: Layers::default(),
             uv: false,
             skeleton: None,
+            muscles: None,
             mouth: None,
             dyes: Dyes::default(),
             hair: HairValues::default(),
@@ -211,16 +225,19 @@ impl Pipeline {
     /// Where a baked bone is none.
     pub fn set_layers(&mut self, layers: Layers) -> Result<(), PipelineError> {
         let shown = |l: Layers| Layers { skin: f32::from(u8::from(l.skin > 0.0)), ..l };
-        let deep = |l: Layers| [l.bone || l.teeth, l.mouth || l.tongue];
-        let [bone, mouth] = deep(layers);
+        let deep = |l: Layers| [l.bone || l.teeth, l.mouth || l.tongue, l.muscles];
+        let [bone, mouth, muscles] = deep(layers);
         if bone && self.skeleton.is_none() {
             self.skeleton = Some(Skeleton::new()?);
+        }
+        if muscles && self.muscles.is_none() {
+            self.muscles = Some(MuscleParts::new(&self.rig)?);
         }
         if mouth && self.mouth.is_none() {
             self.mouth = Some(MouthParts::new()?);
             self.look = None;
         }
-        if deep(self.layers).iter().zip([bone, mouth]).any(|(had, wants)| wants && !had) {
+        if deep(self.layers).iter().zip([bone, mouth, muscles]).any(|(had, wants)| wants && !had) {
             self.values.clear();
         }
         if shown(layers) != shown(self.layers) {
@@ -324,7 +341,7 @@ impl Pipeline {
             parts: self.shown().map(Values::part).collect(),
             control: &self.deformed.control,
             control_indices: self.rig.mesh().indices(),
-            plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0),
+            plan: Some(&*self.plan).filter(|_| self.layers.skin > 0.0 && !self.is_wrinkled),
             whiskers: if self.layers.whiskers { &self.whiskers.whiskers } else { &[] },
             eyes: if self.layers.eyes { &self.eyeballs } else { &[] },
             coat: self.coat(),
@@ -346,21 +363,30 @@ impl Pipeline {
 
     /// The parts of the layers, in the written order.
     fn shown(&self) -> impl Iterator<Item = &Values> {
-        let Layers { skin, eyes, whiskers, bone, teeth, mouth, tongue } = self.layers;
+        let Layers { skin, eyes, whiskers, muscles, bone, teeth, mouth, tongue } = self.layers;
         let own = [skin > 0.0, skin > 0.0, eyes, eyes];
         let own = self.parts.iter().zip(own).filter(|(_, shown)| *shown).map(|(part, _)| part);
         let lids = self.eyelids.parts().filter(move |_| eyes);
         let whiskers = Some(&self.whiskers.values).filter(|_| whiskers);
+        let muscles = self.muscles.iter().filter(move |_| muscles).map(|m| &m.values);
         let bones = self.skeleton.iter().flat_map(move |s| s.parts(bone, teeth));
         let mouth = self.mouth.iter().flat_map(move |m| m.parts(mouth, tongue));
-        own.chain(lids).chain(whiskers).chain(bones).chain(mouth)
+        own.chain(lids).chain(whiskers).chain(muscles).chain(bones).chain(mouth)
     }
 
     /// `is_other`: whether the values changed, not the pose alone.
     fn shape(&mut self, values: &[f32], is_other: bool) {
         let [skin, cap, left, right] = &mut self.parts;
-        let control = &self.deformed.control;
-        self.evaluator.evaluate_into(&self.plan, control, &mut skin.positions, &mut skin.normals);
+        self.evaluator.evaluate_into(&self.plan, &self.deformed.control, &mut skin.positions, &mut skin.normals);
+        let pressed = &mut self.pressed;
+        self.is_wrinkled = self.level >= WRINKLED && self.rig.pressed(values, &self.pose, &mut self.deformed, &mut pressed[0]);
+        if self.is_wrinkled {
+            let [control, refined] = pressed;
+            refined.resize(self.plan.n_vertices(), Vec3::ZERO);
+            self.evaluator.evaluate_attribute(&self.plan, control, refined);
+            let size = self.rig.of_head(values, &mut self.deformed).unit / 0.001;
+            wrinkle(skin, refined, &self.deformed.places.head.turn, size);
+        }
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
         place_cap(&self.plan, &skin.positions, cap);
@@ -373,10 +399,13 @@ impl Pipeline {
         let places = self.deformed.places;
         self.eyelids.shape(&proportions, &self.deformed.eyes, &skin.positions, &places.head, alike);
         self.whiskers.shape(skin, proportions.scale, alike);
-        let Layers { bone, teeth, mouth, tongue, .. } = self.layers;
+        let Layers { muscles, bone, teeth, mouth, tongue, .. } = self.layers;
         let head = Some((&measures, &proportions)).filter(|_| is_other);
         if let Some(skeleton) = self.skeleton.as_mut().filter(|_| bone || teeth) {
             skeleton.shape(head, &places);
+        }
+        if let Some(part) = self.muscles.as_mut().filter(|_| muscles) {
+            part.shape(&self.rig, values, &self.pose, &mut self.deformed);
         }
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
             let unit = self.rig.of_head(values, &mut self.deformed).unit;

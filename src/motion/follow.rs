@@ -1,4 +1,5 @@
-//! What hangs follows late: the leather of the ears and the flews lag behind the head as damped springs.
+//! What hangs follows late, and downwards: the leather of the ears and the flews lag behind the head as damped springs, and
+//! hang where gravity draws them.
 
 use super::{Channel, Pose, Spring};
 use crate::anatomy::ParamTable;
@@ -46,6 +47,8 @@ const FLEW_HZ: [f32; 2] = [8.0, 3.0];
 const FLEW_DAMPING: f32 = 0.45;
 /// How far a flew swings for a degree that the head is ahead of it, millimetres.
 const FLEW_MM_PER_DEG: f32 = 0.5;
+/// How much of a nod or a tilt gravity takes back from the slackest part that hangs.
+const GRAVITY: f32 = 0.7;
 /// No part swings further, degrees and millimetres.
 const MOST_DEG: f32 = 35.0;
 const MOST_MM: f32 = 10.0;
@@ -68,6 +71,9 @@ pub struct Follow {
 struct Led {
     ears: [[f32; 2]; 2],
     flew: f32,
+    /// The part of it that a plumb line would not follow.
+    off_plumb: [[f32; 2]; 2],
+    flew_off_plumb: f32,
 }
 
 impl Follow {
@@ -86,14 +92,17 @@ impl Follow {
         let Build { ear_hang, ear_slack, flew_slack } = self.build;
         let mix = |[stiff, slack]: [f32; 2], part: f32| stiff + (slack - stiff) * part.clamp(0.0, 1.0);
         self.led = led(pose, ear_hang);
-        let springs = self.ears.iter_mut().flatten().zip(self.led.ears.into_iter().flatten());
+        let rest = |led: f32, off_plumb: f32, slack: f32| led - GRAVITY * slack.clamp(0.0, 1.0) * off_plumb;
+        let led = self.led.ears.into_iter().flatten().zip(self.led.off_plumb.into_iter().flatten());
+        let springs = self.ears.iter_mut().flatten().zip(led.map(|(led, off)| rest(led, off, ear_slack)));
+        let flew = rest(self.led.flew, self.led.flew_off_plumb, flew_slack);
         if self.step == 0 {
             springs.for_each(|(spring, to)| *spring = Spring { at: to, speed: 0.0 });
-            self.flew = Spring { at: self.led.flew, speed: 0.0 };
+            self.flew = Spring { at: flew, speed: 0.0 };
         } else {
             let (hz, damping) = (mix(EAR_HZ, ear_slack), mix(EAR_DAMPING, ear_slack));
             springs.for_each(|(spring, to)| spring.step(to, hz, damping));
-            self.flew.step(self.led.flew, mix(FLEW_HZ, flew_slack), FLEW_DAMPING);
+            self.flew.step(flew, mix(FLEW_HZ, flew_slack), FLEW_DAMPING);
         }
         self.step += 1;
     }
@@ -130,5 +139,12 @@ fn led(pose: &Pose, hang: f32) -> Led {
     // A millimetre forward counts as much as half a degree.
     let bend = |side: usize| 0.5 * back[side] - hang * nod - 0.5 * forward;
     let sway = |side: usize, sign: f32| 0.5 * out[side] + sign * aside;
-    Led { ears: [[bend(0), bend(1)], [sway(0, 1.0), sway(1, -1.0)]], flew: turn - 0.5 * tilt }
+    // What stands does not hang down wherever the head goes: cartilage holds it.
+    let hang = hang.max(0.0);
+    Led {
+        ears: [[bend(0), bend(1)], [sway(0, 1.0), sway(1, -1.0)]],
+        flew: turn - 0.5 * tilt,
+        off_plumb: [[-hang * nod; 2], [-hang * tilt, hang * tilt]],
+        flew_off_plumb: -0.5 * tilt,
+    }
 }

@@ -78,6 +78,6 @@ impl Library {
     /// The pose of units alone, their rhythms standing still.
     #[must_use]
     pub fn pose_of(&self, asked: &Activation) -> Pose {
-        self.limits.clamped(&self.units.drive(&self.units.resolve(asked, |_| ())))
+        self.units.pose(&self.units.resolve(asked, |_| ()), &self.limits)
     }
 }

@@ -35,7 +35,7 @@ pub use follow::{Build, Follow};
 pub use library::{CLIPS, EXPRESSIONS, Library};
 pub use life::{Life, Temper};
 pub use moment::Moment;
-pub use muscle::{Anchor, Kind, MUSCLES, Muscle, MuscleTable};
+pub use muscle::{Anchor, Kind, MUSCLES, Muscle, MuscleTable, Wrinkles};
 pub use notation::{Mistake, NotationError};
 pub use player::{Cue, Player};
 pub use pose::Pose;

@@ -17,6 +17,17 @@ pub enum Kind {
     Chewing,
 }
 
+/// Where the skin that a muscle presses together lies in wrinkles, at right angles to its fibres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Wrinkles {
+    /// Across the bridge of the nose and the muzzle.
+    Nose,
+    /// Over the brow and the forehead.
+    Brow,
+    /// Behind the corner of the mouth.
+    Cheek,
+}
+
 /// A landmark, or the mean of several.
 pub type Anchor = Vec<String>;
 
@@ -45,8 +56,21 @@ pub struct Muscle {
     /// How much the skin between is thrown up where it is pressed together, 0 to 1.
     #[serde(default)]
     pub gather: f32,
+    /// Where that skin lies in wrinkles.
+    #[serde(default)]
+    pub wrinkles: Option<Wrinkles>,
+    /// Lines of landmarks along which its fibres are drawn; without any, from its path to each insertion.
+    #[serde(default)]
+    pub drawn: Vec<Vec<Anchor>>,
+    /// How wide it is drawn, millimetres on a head with a skull of 200 mm.
+    #[serde(default = "width")]
+    pub width_mm: f32,
     /// Where that is known from.
     pub source: String,
+}
+
+fn width() -> f32 {
+    7.0
 }
 
 /// Every muscle.
@@ -85,7 +109,7 @@ impl MuscleTable {
                 return Err(row(&m.id, "is there twice".into()));
             }
             for (name, value, most) in
-                [("pull_mm", m.pull_mm, 40.0), ("reach_mm", m.reach_mm, 120.0), ("gather", m.gather, 1.0)]
+                [("pull_mm", m.pull_mm, 40.0), ("reach_mm", m.reach_mm, 120.0), ("gather", m.gather, 1.0), ("width_mm", m.width_mm, 60.0)]
             {
                 if !(0.0..=most).contains(&value) {
                     return Err(row(&m.id, format!("{name} is {value}, allowed 0 to {most}")));

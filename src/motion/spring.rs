@@ -26,5 +26,9 @@ impl Spring {
         let pull = omega * (omega * (to - self.at) - 2.0 * damping * self.speed);
         self.speed += STEP_SECS as f32 * pull;
         self.at += STEP_SECS as f32 * self.speed;
+        // Nobody sees a tenth of a thousandth of a degree, but a head that is at rest costs nothing.
+        if (to - self.at).abs() < 1e-4 && self.speed.abs() < 1e-3 {
+            *self = Self { at: to, speed: 0.0 };
+        }
     }
 }

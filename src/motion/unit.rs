@@ -3,7 +3,7 @@
 //! After Waller, Caeiro, Peirce, Burrows, Kaminski 2013, "DogFACS: The Dog Facial Action Coding System". Which muscle a code
 //! belongs to is theirs where a row says sourced; how far what moves, and which channel it takes, is ours.
 
-use super::{Activation, MotionError, MuscleTable, Pose, Rule, Side, Target, rule};
+use super::{Activation, JointLimits, MotionError, MuscleTable, Pose, Rule, Side, Target, rule};
 use crate::anatomy::nearest;
 use crate::math::ops;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub const UNITS: &str = include_str!("../../rigs/units.ron");
 
 /// What part of the head a unit moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Group {
     /// Brows and lids.
@@ -200,7 +200,7 @@ pub enum UnitError {
 }
 
 fn did_you_mean(near: &[String]) -> String {
-    if near.is_empty() { String::new() } else { format!("; did you mean {}?", near.join(" or ")) }
+    if near.is_empty() { String::new() } else { format!(" (did you mean {}?)", near.join(" or ")) }
 }
 
 #[derive(Deserialize)]
@@ -307,6 +307,12 @@ impl UnitTable {
         let all: Vec<(&str, [String; 3])> = self.units.iter().map(|unit| (unit.id.as_str(), spellings(unit))).collect();
         let names = all.iter().flat_map(|(id, spelt)| spelt.iter().map(move |spelt| (*id, spelt.as_str())));
         nearest(word, names).into_iter().map(str::to_owned).collect()
+    }
+
+    /// The pose of units that have been resolved, inside the limits. Rhythms stand still. Allocates nothing.
+    #[must_use]
+    pub fn pose(&self, resolved: &Activation, limits: &JointLimits) -> Pose {
+        limits.clamped(&self.drive(resolved))
     }
 
     /// What units drive that have been resolved, not yet inside the limits: the sum of their drives, of muscles and some

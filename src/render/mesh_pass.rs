@@ -32,7 +32,12 @@ fn kind(material: Material) -> u32 {
         Material::Mouth => 3,
         Material::Sclera | Material::Iris | Material::Pupil => 4,
         Material::Cap => 5,
-        Material::Bone | Material::Tooth | Material::Gum | Material::ThirdEyelid | Material::Whisker => 6,
+        Material::Bone
+        | Material::Tooth
+        | Material::Gum
+        | Material::ThirdEyelid
+        | Material::Whisker
+        | Material::Muscle => 6,
         Material::Tongue => 7,
         Material::Tears => 8,
     }

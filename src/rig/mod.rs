@@ -251,6 +251,25 @@ impl Rig {
         })
     }
 
+    /// How much a pose presses the skin together at each control vertex (`out`: one each): into wrinkles across the nose,
+    /// of the brow and of the cheek, each 0 to 1. Gives whether it does so anywhere. The head is one that [`Rig::pose`]
+    /// made from these values.
+    pub fn pressed(&self, values: &[f32], pose: &Pose, head: &mut Deformed, out: &mut [Vec3]) -> bool {
+        if pose.is_rest() {
+            return false;
+        }
+        self.posing.pressed(self.of_head(values, head), pose, out)
+    }
+
+    /// Positions of the muscles' straps ([`posing::Fibres`]) of a head that [`Rig::pose`] made from these values and this
+    /// pose, metres.
+    pub fn straps(&self, values: &[f32], pose: &Pose, head: &mut Deformed, out: &mut Vec<Vec3>) {
+        self.of_head(values, head);
+        if let Some(of_head) = &head.of_head {
+            self.posing.straps(&self.half, of_head, pose, (&head.control, &head.places), out);
+        }
+    }
+
     /// How poses move the mesh.
     pub fn posing(&self) -> &PosePlan {
         &self.posing

@@ -6,6 +6,7 @@ mod coat;
 pub mod files;
 mod keys;
 pub mod measures;
+pub mod motion;
 pub mod view;
 
 use super::input;
@@ -43,6 +44,14 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
     if state.measures.is_open {
         let panel = egui::Panel::right("taken").default_size(400.0).size_range(260.0..=620.0);
         panel.show(ui, |ui| measures::ui(state, ui));
+    }
+    if state.motion.is_open {
+        let panel = egui::Panel::right("motion").default_size(430.0).size_range(300.0..=680.0);
+        panel.show(ui, |ui| motion::ui(state, ui));
+    }
+    if state.motion.is_playing {
+        state.motion.pass(f64::from(ui.input(|i| i.stable_dt)));
+        ui.ctx().request_repaint();
     }
     let central = egui::CentralPanel::no_frame().show(ui, |ui| {
         let area = ui.available_size().max(egui::vec2(1.0, 1.0));

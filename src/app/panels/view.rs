@@ -59,6 +59,10 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
         if taken.on_hover_text("What a vet would measure on this head (M)").clicked() {
             state.measures.is_open = !state.measures.is_open;
         }
+        let shown = ui.selectable_label(state.motion.is_open, "Motion");
+        if shown.on_hover_text("Units, expressions and clips (U)").clicked() {
+            state.toggle_motion();
+        }
         if ui.selectable_label(state.shows_keys, "?").on_hover_text("Keys").clicked() {
             state.shows_keys = !state.shows_keys;
         }

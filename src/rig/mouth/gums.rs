@@ -169,6 +169,9 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let Rib { neck, middle, outwards, half, bone, margin } = rib;
     let wall = (bone + 1.4 * unit).max(half + 1.6 * unit);
     let inner = (neck - middle).length();
+    let along = k as f32 / (RIBS - 1) as f32;
+    // Behind the corner of the mouth cheeks lie close.
+    let skirt = if arch.up > 0.0 { SKIRT[1] } else { SKIRT[0] } * (1.0 - 0.65 * smoothstep(0.55, 0.9, along));
     // Never past the median plane.
     let edge = rib.edge(unit);
     let edge_in = edge.min(0.55 * inner);
@@ -177,7 +180,7 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let inwards = (middle - neck).normalize_or(-outwards);
     let mut out = [neck; COLUMNS];
     let gum = [
-        outwards * wall - height(if arch.up > 0.0 { SKIRT[1] } else { SKIRT[0] } * unit),
+        outwards * wall - height(skirt * unit),
         outwards * wall - height(1.5 * unit),
         outwards * (0.35 * edge + 0.65 * wall) + height(0.75 * margin),
         outwards * edge + height(margin),
@@ -187,7 +190,6 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     ];
     gum.into_iter().enumerate().for_each(|(c, offset)| out[c] += offset);
     let foot = out[GUM - 1];
-    let along = k as f32 / (RIBS - 1) as f32;
     let deep = if arch.up < 0.0 {
         2.6 * smoothstep(0.08, 0.3, along) * (1.0 - 0.5 * smoothstep(0.7, 1.0, along))
     } else {

@@ -4,6 +4,7 @@
 //! measures change, a [`Pose`] is of the moment. Nothing is allocated for a pose.
 
 mod ears;
+mod fibres;
 mod jaw;
 mod lips;
 mod muscles;
@@ -11,6 +12,7 @@ mod neck;
 mod rigid;
 mod zones;
 
+pub use fibres::{Fibres, STRAP_VERTICES};
 pub use muscles::Pulls;
 pub use rigid::Rigid;
 
@@ -37,6 +39,7 @@ pub struct PosePlan {
     table: MuscleTable,
     neighbours: Neighbours,
     muscles: MusclePlan,
+    fibres: Fibres,
     lips: Lips,
     ears: Ears,
     /// One for each vertex of the whole mesh: how much of the mandible's turn it makes, and of the head's.
@@ -66,6 +69,8 @@ pub struct OfHead {
     pub hinge: Vec3,
     /// See `hinge`.
     pub pivot: Vec3,
+    /// Landmarks of the left bone, in their list's order, metres.
+    bone: Vec<Vec3>,
     surface: Option<(Proportions, Implicit)>,
     axes: [Vec3; 3],
     /// Lengths of the closing muscles at rest: origin and insertion.
@@ -98,6 +103,7 @@ impl PosePlan {
         Ok(Self {
             limits: JointLimits::embedded()?,
             muscles: MusclePlan::new(&table, half, &neighbours, &base, &mirror)?,
+            fibres: Fibres::new(&table, half)?,
             lips: Lips::new(h, &neighbours, &base),
             ears: Ears::new(h, &neighbours, &base),
             jaw: jaw::weights(h, images, &neighbours, n),
@@ -138,6 +144,11 @@ impl PosePlan {
         neck::turned(head.pivot, head.unit, &self.limits.clamped(pose), neck::END)
     }
 
+    /// How muscles are seen.
+    pub fn fibres(&self) -> &Fibres {
+        &self.fibres
+    }
+
     /// What depends on the head; `half`: its control positions at rest, metres.
     pub(super) fn measure(
         &self,
@@ -163,6 +174,8 @@ impl PosePlan {
             [(bone.vertex + bone.frontostenion + bone.asterion) / 3.0, bone.coronion],
         ];
         self.muscles.of_head(of_half, &self.neighbours, &out.rest, &out.normals, &bone, out.unit, &mut out.pulls);
+        out.bone.clear();
+        out.bone.extend(bone.list());
         out.surface = Some((*shape, Implicit::new(shape)));
     }
 
@@ -230,6 +243,30 @@ impl PosePlan {
             Eye { centre: place.point(e.centre), axes: e.axes.map(|a| place.direction(a)), ..e }
         });
         (eyes, Places { head: place, mandible: place.after(&jaw), jaw })
+    }
+
+    /// See [`super::Rig::pressed`].
+    pub(super) fn pressed(&self, head: &OfHead, pose: &Pose, out: &mut [Vec3]) -> bool {
+        let pose = &self.limits.clamped(pose);
+        self.muscles.press(&head.pulls, |m| pose.muscle(m), out)
+    }
+
+    /// Positions of the muscles' straps on a posed head.
+    pub(super) fn straps(
+        &self,
+        of_half: &HalfMesh,
+        head: &OfHead,
+        pose: &Pose,
+        posed: (&[Vec3], &Places),
+        out: &mut Vec<Vec3>,
+    ) {
+        let pose = &self.limits.clamped(pose);
+        let bite = pose.channel(Channel::Bite);
+        let contraction = |m: usize| match self.closers.contains(&Some(m)) {
+            true => [0, 1].map(|side| pose.muscle(m)[side].max(bite[side])),
+            false => pose.muscle(m),
+        };
+        self.fibres.place(of_half, self.muscles.mirror(), head, posed, contraction, out);
     }
 
     /// How far masseter and temporalis stand out, as parts of their pull: hard when they bite, drawn out thin when the

@@ -6,9 +6,9 @@
 use super::zones::{Neighbours, fade, smoothstep};
 use crate::anatomy::Region;
 use crate::mesh::VertexId;
-use crate::motion::{Kind, Muscle, MuscleTable};
+use crate::motion::{Kind, Muscle, MuscleTable, Wrinkles};
 use crate::rig::bone::{LANDMARKS, Targets};
-use crate::rig::{HalfMesh, Place, RigError};
+use crate::rig::{HalfMesh, Place, RigError, SkinLandmark};
 use glam::Vec3;
 
 /// Head units of the base head for a millimetre of a head with a skull of 200 mm.
@@ -26,9 +26,20 @@ const LEAST: f32 = 0.004;
 
 /// Where a landmark is found.
 #[derive(Clone, Copy, Debug)]
-enum Spot {
+pub(super) enum Spot {
+    /// On the skin.
     Skin(Place),
+    /// Number in the list of bone's landmarks.
     Bone(usize),
+}
+
+impl Spot {
+    /// The landmark of that id.
+    pub(super) fn find(id: &str, skin: &[SkinLandmark]) -> Result<Self, RigError> {
+        let of_skin = skin.iter().find(|l| l.id == *id).map(|l| Spot::Skin(l.place));
+        let of_bone = || LANDMARKS.iter().position(|l| l.id == id).map(Spot::Bone);
+        of_skin.or_else(of_bone).ok_or_else(|| RigError::MissingLandmark(id.to_owned()))
+    }
 }
 
 /// A muscle on the mesh.
@@ -39,6 +50,7 @@ struct Bound {
     insertion: Vec<Spot>,
     pull_mm: f32,
     gather: f32,
+    wrinkles: Option<Wrinkles>,
     /// Vertices of the whole mesh that the left one moves, ascending.
     vertices: Vec<u32>,
     /// Those of the lips and their lining.
@@ -61,8 +73,8 @@ pub struct Pulls {
     /// Start of each muscle's entries, and the end of the last.
     offsets: Vec<u32>,
     entries: Vec<(u32, Vec3)>,
-    /// The way of each muscle's fibres on this head, from origin to insertion, metres: for who draws it.
-    pub(in crate::rig) ways: Vec<Vec<[Vec3; 4]>>,
+    /// How much each entry's skin is pressed together, 0 to 1.
+    pressed: Vec<f32>,
 }
 
 /// How freely the skin of a region slides over the bone, 0 to 1.
@@ -87,11 +99,7 @@ impl MusclePlan {
         mirror: &[u32],
     ) -> Result<Self, RigError> {
         let skin = half.skin_landmarks();
-        let spot = |id: &String| {
-            let of_skin = skin.iter().find(|l| l.id == *id).map(|l| Spot::Skin(l.place));
-            let of_bone = || LANDMARKS.iter().position(|l| l.id == id).map(Spot::Bone);
-            of_skin.or_else(of_bone).ok_or_else(|| RigError::MissingLandmark(id.clone()))
-        };
+        let spot = |id: &String| Spot::find(id, &skin);
         let faces = half.triangles();
         let mut regions = half.whole_regions();
         // The lining goes with the margin of its lip, so that it never hangs below it, and is grown to the gum behind.
@@ -148,8 +156,8 @@ impl MusclePlan {
             }
             let is_lip = |v: &u32| matches!(regions[*v as usize], Region::UpperLip | Region::LowerLip | Region::Mouth);
             let lips = vertices.iter().copied().filter(is_lip).collect();
-            let Muscle { kind, pull_mm, gather, .. } = *m;
-            Ok(Bound { kind, path, insertion, pull_mm, gather, vertices, lips, weights })
+            let Muscle { kind, pull_mm, gather, wrinkles, .. } = *m;
+            Ok(Bound { kind, path, insertion, pull_mm, gather, wrinkles, vertices, lips, weights })
         });
         Ok(Self { bound: bound.collect::<Result<_, RigError>>()?, mirror: mirror.to_vec() })
     }
@@ -178,14 +186,11 @@ impl MusclePlan {
         out.offsets.clear();
         out.offsets.push(0);
         out.entries.clear();
-        out.ways.clear();
+        out.pressed.clear();
         let mut moved = vec![Vec3::ZERO; rest.len()];
         for m in &self.bound {
             let path: Vec<Vec3> = m.path.iter().map(mean).collect();
-            let origin = path.first().copied().unwrap_or_default();
             let last = path.last().copied().unwrap_or_default();
-            let before = if path.len() > 1 { path[path.len() - 2] } else { origin };
-            out.ways.push(m.insertion.iter().map(|i| [origin, before, last, place(i)]).collect());
             let pull = m.pull_mm * unit;
             let zones = m.weights.len() / m.vertices.len().max(1);
             let start = out.entries.len();
@@ -216,6 +221,7 @@ impl MusclePlan {
                         moved[v as usize] = d;
                     }
                     let entries = &mut out.entries[start..];
+                    out.pressed.resize(start, 0.0);
                     for (v, d) in entries.iter_mut() {
                         let own = *v as usize;
                         let ring = neighbours.of(VertexId(*v));
@@ -224,6 +230,7 @@ impl MusclePlan {
                             (moved[n as usize] - moved[own]).dot(edge) / edge.length_squared().max(1e-12)
                         });
                         let pressed = (-strain.sum::<f32>() / ring.len() as f32).clamp(0.0, 0.4);
+                        out.pressed.push(pressed);
                         *d += normals[own] * (pressed * m.gather * THROWN_UP * unit);
                     }
                     for &(v, _) in &out.entries[start..] {
@@ -231,6 +238,7 @@ impl MusclePlan {
                     }
                 }
             }
+            out.pressed.resize(out.entries.len(), 0.0);
             out.offsets.push(out.entries.len() as u32);
         }
     }
@@ -251,6 +259,24 @@ impl MusclePlan {
                 }
             }
         }
+    }
+
+    /// How much the skin is pressed together at each control vertex (`out`: one each) into wrinkles of nose, brow and cheek.
+    /// Gives whether it is anywhere.
+    pub(super) fn press(&self, pulls: &Pulls, contraction: impl Fn(usize) -> [f32; 2], out: &mut [Vec3]) -> bool {
+        out.fill(Vec3::ZERO);
+        let mut is_any = false;
+        for (m, range) in pulls.offsets.windows(2).enumerate() {
+            let [left, right] = contraction(m);
+            let Some(wrinkles) = self.bound[m].wrinkles.filter(|_| left != 0.0 || right != 0.0) else { continue };
+            is_any = true;
+            let range = range[0] as usize..range[1] as usize;
+            for (&(v, _), &pressed) in pulls.entries[range.clone()].iter().zip(&pulls.pressed[range]) {
+                out[v as usize][wrinkles as usize] += pressed * left;
+                out[self.mirror[v as usize] as usize][wrinkles as usize] += pressed * right;
+            }
+        }
+        is_any
     }
 
     /// The other side's vertex of each vertex of the whole mesh.

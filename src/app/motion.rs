@@ -1,0 +1,279 @@
+//! What the head in the window does: units, expressions, a clip, life of its own, and the time they have come to. Without a
+//! window, so that a test can drive it.
+
+use crate::anatomy::{Breed, ParamTable};
+use crate::motion::{
+    Act, Activation, Build, Cue, Library, Life, Mixed, MotionError, Overruled, Pose, Stimulus, Temper,
+};
+
+/// The motion of one head.
+pub struct Motion {
+    /// Every table.
+    pub library: Library,
+    act: Act,
+    /// The panel is shown.
+    pub is_open: bool,
+    /// Sliders move one side alone.
+    pub one_sided: bool,
+    /// Time passes.
+    pub is_playing: bool,
+    /// A clip that is over starts anew.
+    pub loops: bool,
+    /// Times as fast as a clock, 0.05 to 4.
+    pub speed: f64,
+    /// Eyes and head follow the pointer.
+    pub follows_pointer: bool,
+    /// What is noticed now.
+    pub stimulus: Stimulus,
+    /// Seconds since the motion began.
+    time: f64,
+    /// The clip that plays.
+    clip: Option<usize>,
+    /// The units before one of them was shown alone.
+    before_solo: Option<(usize, Activation)>,
+    /// What the text field has, and what is wrong with it.
+    pub typed: String,
+    /// What is wrong with what was typed.
+    pub mistake: Option<String>,
+    overruled: Vec<Overruled>,
+}
+
+/// A frame of the timeline's steps, seconds.
+const FRAME_SECS: f64 = 1.0 / 30.0;
+/// The seed of life in a window.
+const SEED: u64 = 1;
+
+impl Motion {
+    /// A head at rest.
+    ///
+    /// # Errors
+    /// Never: a test reads every table.
+    pub fn new() -> Result<Self, MotionError> {
+        Ok(Self {
+            library: Library::embedded()?,
+            act: Act::new(Build::default()),
+            is_open: false,
+            one_sided: false,
+            is_playing: false,
+            loops: true,
+            speed: 1.0,
+            follows_pointer: false,
+            stimulus: Stimulus::default(),
+            time: 0.0,
+            clip: None,
+            before_solo: None,
+            typed: String::new(),
+            mistake: None,
+            overruled: Vec::new(),
+        })
+    }
+
+    /// What is asked for, unit by unit.
+    pub fn units(&self) -> &Activation {
+        &self.act.units
+    }
+
+    /// Asks for a unit, left and right.
+    pub fn set_unit(&mut self, unit: usize, sides: [f32; 2]) {
+        *self.act.units.get_mut(unit) = sides;
+        self.before_solo = None;
+        self.write_notation();
+    }
+
+    /// Shows a unit alone at 1; once more brings back what was there before.
+    pub fn solo(&mut self, unit: usize) {
+        match self.before_solo.take() {
+            Some((shown, before)) if shown == unit => self.act.units = before,
+            earlier => {
+                let before = earlier.map_or(self.act.units, |(_, before)| before);
+                self.act.units = Activation::default();
+                *self.act.units.get_mut(unit) = [1.0; 2];
+                self.before_solo = Some((unit, before));
+            }
+        }
+        self.write_notation();
+    }
+
+    /// Everything at rest, and no time.
+    pub fn reset(&mut self) {
+        self.act.units = Activation::default();
+        self.act.expressions.clear();
+        self.before_solo = None;
+        self.set_clip(None);
+        self.set_alive(false);
+        (self.is_playing, self.follows_pointer, self.stimulus) = (false, false, Stimulus::default());
+        self.write_notation();
+    }
+
+    /// Takes what was typed; a mistake leaves everything as it is.
+    pub fn read_notation(&mut self) {
+        match self.library.units.parse_notation(&self.typed) {
+            Ok(units) => {
+                (self.act.units, self.before_solo, self.mistake) = (units, None, None);
+            }
+            Err(error) => self.mistake = Some(error.to_string()),
+        }
+    }
+
+    fn write_notation(&mut self) {
+        self.typed = self.library.units.notation(&self.act.units);
+        self.mistake = None;
+    }
+
+    /// How much of an expression is mixed in, 0 to 1.
+    pub fn weight(&self, expression: usize) -> f32 {
+        let mixed = self.act.expressions.iter().find(|mixed| mixed.expression == expression);
+        mixed.map_or(0.0, |mixed| mixed.weight)
+    }
+
+    /// Mixes in an expression as it shows itself best; 0 takes it out.
+    pub fn set_weight(&mut self, expression: usize, weight: f32) {
+        self.act.expressions.retain(|mixed| mixed.expression != expression);
+        if weight > 0.0 {
+            self.act.expressions.push(Mixed { expression, weight: weight.min(1.0), start: None });
+        }
+        // The order in which they were touched is none of the sum's business.
+        self.act.expressions.sort_by_key(|mixed| mixed.expression);
+    }
+
+    /// Shows an expression alone, or nothing where it is shown alone already.
+    pub fn show_expression(&mut self, expression: usize) {
+        let is_alone = self.act.expressions.len() == 1 && self.weight(expression) == 1.0;
+        self.act.expressions.clear();
+        self.set_weight(expression, if is_alone { 0.0 } else { 1.0 });
+    }
+
+    /// The clip that plays.
+    pub fn clip(&self) -> Option<usize> {
+        self.clip
+    }
+
+    /// Plays another clip from its start, or none.
+    pub fn set_clip(&mut self, clip: Option<usize>) {
+        self.clip = clip;
+        self.act.player = Default::default();
+        if let Some(clip) = clip {
+            let mut cue = Cue::new(&self.library, clip, 0.0, 0.0);
+            cue.end = f64::INFINITY;
+            self.act.player.layer(cue);
+            self.is_playing = true;
+        }
+        self.time = 0.0;
+        self.act.restart();
+    }
+
+    /// Whether the head blinks, breathes and looks about by itself.
+    pub fn is_alive(&self) -> bool {
+        self.act.life.is_some()
+    }
+
+    /// Lets it live, or not.
+    pub fn set_alive(&mut self, alive: bool) {
+        self.act.life = alive.then(|| Life::new(SEED, Temper::default()));
+        self.is_playing |= alive;
+        self.act.restart();
+    }
+
+    /// Seconds from the start, and, where a clip plays, its length.
+    pub fn timeline(&self) -> (f64, Option<f64>) {
+        let Some(clip) = self.clip.and_then(|clip| self.library.clips.get(clip)) else { return (self.time, None) };
+        (clip.local_time(self.time), Some(clip.seconds))
+    }
+
+    /// Goes to a time.
+    pub fn scrub(&mut self, time: f64) {
+        self.is_playing = false;
+        self.time = time.max(0.0);
+    }
+
+    /// Goes by so many frames.
+    pub fn step(&mut self, frames: i32) {
+        let (time, length) = self.timeline();
+        self.scrub((time + f64::from(frames) * FRAME_SECS).clamp(0.0, length.unwrap_or(f64::MAX)));
+    }
+
+    /// Time passes, seconds of a clock; a window that stood still does not make up for more than a tenth.
+    pub fn pass(&mut self, seconds: f64) {
+        if !self.is_playing {
+            return;
+        }
+        self.time += seconds.clamp(0.0, 0.1) * self.speed;
+        let Some(clip) = self.clip.and_then(|clip| self.library.clips.get(clip)).filter(|clip| !clip.repeats) else {
+            return;
+        };
+        if self.time > clip.seconds {
+            match self.loops {
+                true => self.time = self.time.rem_euclid(clip.seconds),
+                false => (self.time, self.is_playing) = (clip.seconds, self.is_alive()),
+            }
+        }
+    }
+
+    /// The pose of this moment.
+    pub fn pose(&mut self, table: &ParamTable, breed: &Breed) -> Pose {
+        self.act.build = Build::of(table, &breed.values);
+        self.overruled.clear();
+        let (stimulus, overruled) = (self.stimulus, &mut self.overruled);
+        self.act.pose(&self.library, self.time, |_| stimulus, |told| overruled.push(told))
+    }
+
+    /// What did not come as it was asked for in the last pose.
+    pub fn overruled(&self) -> &[Overruled] {
+        &self.overruled
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn motion() -> Motion {
+        Motion::new().unwrap()
+    }
+
+    #[test]
+    fn solo_does_not_bring_back_what_was_there() {
+        let mut motion = motion();
+        motion.set_unit(3, [0.5, 0.2]);
+        let before = *motion.units();
+        motion.solo(1);
+        assert_eq!((motion.units().get(1), motion.units().get(3)), ([1.0; 2], [0.0; 2]));
+        motion.solo(2);
+        assert_eq!((motion.units().get(1), motion.units().get(2)), ([0.0; 2], [1.0; 2]));
+        motion.solo(2);
+        assert_eq!(*motion.units(), before);
+    }
+
+    #[test]
+    fn a_mistake_in_the_notation_moves_the_head_or_is_not_told() {
+        let mut motion = motion();
+        motion.typed = "101+12B".into();
+        motion.read_notation();
+        assert!(motion.mistake.is_none() && !motion.units().is_rest());
+        let before = *motion.units();
+        motion.typed = "101+".into();
+        motion.read_notation();
+        assert!(motion.mistake.is_some());
+        assert_eq!(*motion.units(), before);
+        motion.set_unit(0, [0.0; 2]);
+        assert_eq!((motion.typed.as_str(), &motion.mistake), ("12B", &None));
+    }
+
+    #[test]
+    fn time_runs_beyond_a_clip_or_stands_still_while_it_plays() {
+        let mut motion = motion();
+        let yawn = motion.library.clips.iter().position(|c| c.id == "yawn").unwrap();
+        motion.set_clip(Some(yawn));
+        (0..100).for_each(|_| motion.pass(0.05));
+        let (time, length) = motion.timeline();
+        assert!(motion.is_playing && (5.0 - 3.2 - time).abs() < 1e-6 && length == Some(3.2), "{time}");
+        motion.loops = false;
+        (0..100).for_each(|_| motion.pass(0.05));
+        assert_eq!((motion.timeline().0, motion.is_playing), (3.2, false));
+        motion.step(-1);
+        assert!((motion.timeline().0 - 3.2 + FRAME_SECS).abs() < 1e-9);
+        motion.reset();
+        let table = ParamTable::embedded().unwrap();
+        assert!(motion.pose(&table, &Breed::defaults(&table)).is_rest());
+    }
+}
