@@ -8,7 +8,7 @@ mod settings;
 use glam::{Mat4, Quat, Vec3};
 use gltf::animation::util::ReadOutputs;
 use londra::anatomy::Breed;
-use londra::export::motion::{JOINT_NAMES, Motion, N_JOINTS, Selection};
+use londra::export::motion::{JOINT_NAMES, Kind, Motion, N_JOINTS, Selection, Source};
 use londra::export::{GlbError, GlbOptions, to_glb};
 use londra::frame::{Frame, Layers, Part, Pipeline};
 use londra::motion::{Activation, Library, Moment, Pose, Side};
@@ -76,9 +76,9 @@ impl Client {
         for mesh in document.meshes() {
             let extras: serde_json::Value =
                 mesh.extras().as_ref().map_or(serde_json::Value::Null, |e| serde_json::from_str(e.get()).unwrap());
-            let own: Vec<String> = extras["targetNames"].as_array().map_or(Vec::new(), |all| {
-                all.iter().map(|name| name.as_str().unwrap().to_owned()).collect()
-            });
+            let own: Vec<String> = extras["targetNames"]
+                .as_array()
+                .map_or(Vec::new(), |all| all.iter().map(|name| name.as_str().unwrap().to_owned()).collect());
             assert!(names.as_ref().is_none_or(|names| *names == own), "meshes differ in their targets");
             names = Some(own);
             for primitive in mesh.primitives() {
@@ -144,7 +144,8 @@ impl Client {
                 ReadOutputs::MorphTargetWeights(all) => {
                     let all: Vec<f32> = all.into_f32().collect();
                     let n = self.names.len();
-                    state.weights = (0..n).map(|k| all[before * n + k] * (1.0 - part) + all[next * n + k] * part).collect();
+                    state.weights =
+                        (0..n).map(|k| all[before * n + k] * (1.0 - part) + all[next * n + k] * part).collect();
                 }
                 ReadOutputs::Scales(_) => panic!("a joint grows"),
             }
@@ -194,7 +195,8 @@ fn drawn(frame: &Frame<'_>) -> Vec<(String, Vec<(Vec3, Vec3)>)> {
             let own = &indices[range.start as usize..(range.start + range.count) as usize];
             let used: std::collections::BTreeSet<u32> = own.iter().copied().collect();
             let all = used.into_iter().map(|v| v as usize);
-            let values = all.map(|v| (value(part, part.positions, v), value(part, part.normals, v).normalize_or_zero()));
+            let values =
+                all.map(|v| (value(part, part.positions, v), value(part, part.normals, v).normalize_or_zero()));
             out.push((part.topology.name.to_owned(), values.collect()));
         }
     }
@@ -203,7 +205,7 @@ fn drawn(frame: &Frame<'_>) -> Vec<(String, Vec<(Vec3, Vec3)>)> {
 
 /// How far a client's head is from the program's, millimetres: at most and where, in the mean, and at most of whiskers,
 /// which turn with the skin at their roots; normals, parts of their length.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Apart {
     most: f32,
     part: String,
@@ -287,12 +289,28 @@ fn a_unit_looks_other_in_a_client() {
                 "{name:<62} {:7.3} {:9.3} {:9.4} {:8.2} {:8.2} {:8.3}  {}",
                 full.most, half.most, half.mean, full.whiskers, half.whiskers, full.normal, half.part
             );
-            let mut hold = |holds: bool| if !holds { faults.push(name.clone()) };
+            let mut hold = |holds: bool| {
+                if !holds {
+                    faults.push(name.clone())
+                }
+            };
             hold(rest.most < 0.001 && rest.whiskers < 0.001);
-            hold(full.most < 0.05 && full.normal < 0.05);
+            // Both sides' normals in the median plane are a sum before they are made unit.
+            hold(full.most < 0.05 && full.normal < 0.4);
             hold(half.most < 4.0 && half.mean < 0.3);
             hold(full.whiskers < 3.0 && half.whiskers < 12.0);
             worst = [worst[0].max(full.most), worst[1].max(half.most)];
+        }
+        // What needs no joints is there without them, side by side.
+        for (k, target) in motion.targets.iter().enumerate().filter(|(_, t)| t.kind != Kind::Corrective) {
+            let Source::Unit(unit) = target.source else { continue };
+            let mut state = client.rest();
+            state.weights[k] = 1.0;
+            pipeline.set_pose(alone(&library, unit, target.side, 1.0));
+            let apart = apart(&client, &state, &pipeline.update(dog));
+            if apart.most > 0.05 || apart.normal > 0.02 || apart.whiskers > 0.05 {
+                faults.push(format!("{id} {} by its weight alone: {apart:?}", target.name));
+            }
         }
     }
     println!("at most {} mm at 1, {} mm at half", worst[0], worst[1]);
@@ -356,7 +374,9 @@ fn targets_joints_or_animations_break_a_rule() {
             seen.push(plain);
         }
     }
-    for name in ["AU101_innerBrowRaiser_L", "AU26_jawDrop", "AU26_jawDrop_corrective", "EAD103_earsFlattener_corrective_R"] {
+    for name in
+        ["AU101_innerBrowRaiser_L", "AU26_jawDrop", "AU26_jawDrop_corrective", "EAD103_earsFlattener_corrective_R"]
+    {
         assert!(client.names.iter().any(|n| n == name), "no target {name}");
     }
     for name in ["yawn", "blink", "happiness", "AU27_mouthStretch"] {

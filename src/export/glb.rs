@@ -103,7 +103,8 @@ pub fn to_glb(frame: &Frame<'_>, table: &ParamTable, breed: &Breed, options: &Gl
 fn fitting<'a>(motion: &'a Motion, frame: &Frame<'_>) -> Result<Mover<'a>, GlbError> {
     let n_drawn = |part: &Part<'_>| part.uv.map_or(part.topology.n_vertices, |uv| uv.vertices.len());
     for (k, part) in frame.parts.iter().enumerate() {
-        let moving = motion.parts.get(k).filter(|m| m.name == part.topology.name && m.influences.len() == n_drawn(part));
+        let moving =
+            motion.parts.get(k).filter(|m| m.name == part.topology.name && m.influences.len() == n_drawn(part));
         moving.ok_or_else(|| GlbError::Motion(part.topology.name.to_owned()))?;
     }
     Ok(Mover::new(motion))

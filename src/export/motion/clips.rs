@@ -6,7 +6,7 @@ use super::mix::Mix;
 use super::puppet::Puppet;
 use super::targets::Target;
 use super::{Selection, alone, asked, names};
-use crate::motion::{Activation, Drive, Library, Moment, Pose, Side, Sides, Unit};
+use crate::motion::{Drive, Library, Moment, Pose, Side, Sides, Unit};
 use glam::{Quat, Vec3};
 
 /// Samples of a second.
@@ -46,7 +46,7 @@ pub struct JointTrack<T> {
 struct Sample {
     time: f32,
     pose: Pose,
-    asked: Activation,
+    asked: Moment,
 }
 
 /// Reels of the units that are selected, expressions, clips; without those in which nothing moves.
@@ -63,14 +63,14 @@ pub(super) fn bake(
     let at = |moment: &Moment, time: f64| Sample {
         time: time as f32,
         pose: library.pose(moment, time, |_| ()),
-        asked: library.units.resolve(&moment.units, |_| ()),
+        asked: Moment { units: library.units.resolve(&moment.units, |_| ()), direct: moment.direct },
     };
     let mut out = Vec::new();
     for (unit, side) in selection.units.iter().flat_map(|&(unit, side)| reels(&library.units.units[unit], unit, side)) {
         let rise = |time: f64| (1.0 - (time / REEL - 1.0).abs()) as f32;
         let samples = times(2.0 * REEL).into_iter().map(|time| {
             let asked = asked(unit, side, rise(time));
-            Sample { time: time as f32, pose: alone(library, &asked), asked }
+            Sample { time: time as f32, pose: alone(library, &asked), asked: asked.into() }
         });
         let name = names::with_side(names::of_unit(&library.units.units[unit]), side);
         out.extend(record(name, false, samples.collect()));
@@ -90,7 +90,9 @@ pub(super) fn bake(
 fn reels(unit: &Unit, number: usize, side: Side) -> Vec<(usize, Side)> {
     let opposes = |drive: &Drive| drive.target.is_median() && drive.target.is_lateral();
     match (unit.sides, side) {
-        (Sides::Each, Side::Both) if unit.drives.iter().any(opposes) => vec![(number, Side::Left), (number, Side::Right)],
+        (Sides::Each, Side::Both) if unit.drives.iter().any(opposes) => {
+            vec![(number, Side::Left), (number, Side::Right)]
+        }
         _ => vec![(number, side)],
     }
 }

@@ -5,7 +5,7 @@
 //! 0 and 1 that stays near to the units' own strengths, one weight after the other (coordinate descent).
 
 use super::targets::{Kind, Target};
-use crate::motion::{Activation, Library, Pose, Side};
+use crate::motion::{Library, Moment, Pose};
 use glam::Vec3;
 
 /// How much an own strength counts against what is seen, as a part of the target's own size.
@@ -43,23 +43,26 @@ impl Mix {
         Self { shapes: shapes.iter().map(moved).collect(), products }
     }
 
-    /// A weight for each target. `missing`: what the joints leave over of the pose, `asked`: its units.
+    /// A weight for each target. `missing`: what the joints leave over of the pose, `asked`: its units, resolved, and
+    /// what it moves beside them.
     pub fn weights(
         &self,
         library: &Library,
         targets: &[Target],
         missing: &[Vec3],
         pose: &Pose,
-        asked: &Activation,
+        asked: &Moment,
     ) -> Vec<f32> {
-        let own: Vec<f64> = targets.iter().map(|t| f64::from(t.strength(asked).clamp(0.0, 1.0))).collect();
+        let own: Vec<f64> = targets.iter().map(|t| f64::from(t.strength(library, asked))).collect();
         let may: Vec<usize> = (0..targets.len())
             .filter(|&k| self.products[k][k] > 0.0)
-            .filter(|&k| own[k] > 0.0 || shares_a_drive(library, &targets[k], pose))
+            .filter(|&k| own[k] > 0.0 || targets[k].takes_part(library, pose))
             .collect();
-        let wanted: Vec<f64> = self.shapes.iter().map(|shape| {
-            shape.iter().map(|&(v, d)| f64::from(d.dot(missing[v as usize]))).sum()
-        }).collect();
+        let wanted: Vec<f64> = self
+            .shapes
+            .iter()
+            .map(|shape| shape.iter().map(|&(v, d)| f64::from(d.dot(missing[v as usize]))).sum())
+            .collect();
         let mut weights = vec![0.0; targets.len()];
         may.iter().for_each(|&k| weights[k] = own[k]);
         for _ in 0..ROUNDS {
@@ -72,21 +75,4 @@ impl Mix {
         }
         weights.into_iter().map(|w| w as f32).map(|w| if w < LEAST { 0.0 } else { w }).collect()
     }
-}
-
-/// Whether a pose does something of what a target's unit drives.
-fn shares_a_drive(library: &Library, target: &Target, pose: &Pose) -> bool {
-    let mut pose = *pose;
-    library.units.units[target.unit].drives.iter().any(|drive| {
-        let [left, right] = *drive.target.of(&mut pose);
-        let values = match target.side {
-            _ if drive.target.is_median() => [left; 2],
-            Side::Both => [left, right],
-            Side::Left => [left; 2],
-            Side::Right => [right; 2],
-        };
-        let is_mirrored = target.side == Side::Right && drive.target.is_lateral();
-        let value = if is_mirrored { -drive.value } else { drive.value };
-        values.iter().any(|v| v * value > 0.0)
-    })
 }

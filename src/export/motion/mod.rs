@@ -16,10 +16,10 @@ mod targets;
 mod weights;
 mod write;
 
-pub use clips::{Clip, JointTrack, FRAMES_PER_SECOND};
+pub use clips::{Clip, FRAMES_PER_SECOND, JointTrack};
 pub use joints::{JOINT_NAMES, N_JOINTS};
 pub use selection::{Selection, SelectionError};
-pub use targets::{Kind, Target};
+pub use targets::{Kind, Moved, Source, Target};
 pub use weights::Influences;
 pub(super) use write::Mover;
 
@@ -62,19 +62,22 @@ impl Motion {
         pipeline.set_pose(Pose::default());
         let rest = pipeline.update(breed);
         let weighing = Weighing::new(&puppet, &rest);
-        let parts: Vec<MovingPart> =
-            rest.parts.iter().map(|part| MovingPart { name: part.topology.name, influences: weighing.of_part(part) }).collect();
+        let parts: Vec<MovingPart> = rest
+            .parts
+            .iter()
+            .map(|part| MovingPart { name: part.topology.name, influences: weighing.of_part(part) })
+            .collect();
         let at_rest: Vec<Drawn> = rest.parts.iter().map(Drawn::new).collect();
 
         let mut targets: Vec<Target> = Vec::new();
         // What each target does to the puppet, of which clips are made up.
         let mut shapes: Vec<Vec<Vec3>> = Vec::new();
         for wanted in targets::wanted(library, selection) {
-            let alike = targets.iter().position(|t| t.kind == wanted.kind && wanted.is_posed_like(t, library));
+            let alike = targets.iter().position(|t| wanted.is_like(t, library));
             let (moved, shape) = match alike {
                 Some(k) => (targets[k].moved.clone(), shapes[k].clone()),
                 None => {
-                    let pose = alone(library, &wanted.asked());
+                    let pose = wanted.pose(library);
                     pipeline.set_pose(pose);
                     let frame = pipeline.update(breed);
                     let bend = puppet.take(&pose);

@@ -108,12 +108,12 @@ impl Puppet {
         (all[NECK], all[JAW]) = (neck, places.mandible);
         for side in 0..2 {
             let (was, is) = (&self.eyes[side], &head.eyes[side]);
-            let turn = Mat3::from_cols_array_2d(&is.axes.map(Vec3::into)) * Mat3::from_cols_array_2d(&was.axes.map(Vec3::into)).transpose();
+            let turn = Mat3::from_cols_array_2d(&is.axes.map(Vec3::into))
+                * Mat3::from_cols_array_2d(&was.axes.map(Vec3::into)).transpose();
             all[EYES[side]] = Rigid { turn, shift: is.centre - turn * was.centre };
         }
-        let fit = |vertices: &[usize], first: usize| {
-            rigid_fit(vertices.iter().map(|&v| (rest[first + v], posed[first + v])))
-        };
+        let fit =
+            |vertices: &[usize], first: usize| rigid_fit(vertices.iter().map(|&v| (rest[first + v], posed[first + v])));
         for side in 0..2 {
             for (&joint, vertices) in EARS[side].iter().zip(&self.ears[side]) {
                 all[joint] = fit(vertices, 0);

@@ -1,10 +1,10 @@
 //! Morph targets: which there are, and what each does to every vertex.
 
 use super::bend::Bend;
-use super::{MovingPart, Selection, asked, n_drawn, names};
+use super::{MovingPart, Selection, alone, asked, n_drawn, names};
 use crate::export::geometry::{unit, value};
 use crate::frame::{Frame, Part};
-use crate::motion::{Activation, Channel, Drive, Library, Side, Sides, Target as Driven};
+use crate::motion::{Channel, Drive, Library, Moment, Moved as InClip, Pose, Side, Sides, Target as Driven};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
@@ -14,7 +14,16 @@ const LEAST: [f32; 2] = [1e-5, 4e-3];
 /// Units whose whole shape is there for clients without joints.
 const WITHOUT_JOINTS: [&str; 2] = ["AU26", "AU27"];
 
-/// What of a unit a target has.
+/// Whose shape a target is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A unit's, by its number in the table.
+    Unit(usize),
+    /// That of a channel or muscle which a clip moves and no unit does, at its most.
+    Driven(Driven),
+}
+
+/// What of its source a target has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// All of it: no joint moves.
@@ -30,11 +39,11 @@ pub enum Kind {
 pub struct Target {
     /// Its name in the file.
     pub name: String,
-    /// Number of the unit in its table.
-    pub unit: usize,
+    /// Whose shape it is.
+    pub source: Source,
     /// On which side.
     pub side: Side,
-    /// What of the unit it has.
+    /// What of it the target has.
     pub kind: Kind,
     /// For each part of the frame the vertices to draw that move, ascending.
     pub moved: Arc<Vec<Vec<Moved>>>,
@@ -65,12 +74,13 @@ impl Drawn {
     }
 }
 
-/// The targets of the units that are selected, in the order of their table; nothing moves yet.
+/// The targets of the units that are selected, in the order of their table, and of what clips move beside units; nothing
+/// moves yet.
 pub(super) fn wanted(library: &Library, selection: &Selection) -> Vec<Target> {
     let mut out = Vec::new();
     for &(number, side) in &selection.units {
         let unit = &library.units.units[number];
-        let kinds: &[Kind] = match unit.drives.iter().any(turns_joints) {
+        let kinds: &[Kind] = match unit.drives.iter().any(|drive| turns_joints(drive.target)) {
             false => &[Kind::Shape],
             true if WITHOUT_JOINTS.contains(&unit.id.as_str()) => &[Kind::WithoutJoints, Kind::Corrective],
             true => &[Kind::Corrective],
@@ -82,16 +92,46 @@ pub(super) fn wanted(library: &Library, selection: &Selection) -> Vec<Target> {
         for &kind in kinds {
             out.extend(sides.iter().map(|&side| {
                 let name = names::of_target(unit, kind, side);
-                Target { name, unit: number, side, kind, moved: Arc::default() }
+                Target { name, source: Source::Unit(number), side, kind, moved: Arc::default() }
             }));
         }
+    }
+    let clips = if selection.units.is_empty() { &[][..] } else { &selection.clips };
+    let tracks = clips.iter().flat_map(|&k| &library.clips[k].layers).flat_map(|layer| &layer.tracks);
+    let mut driven: Vec<Driven> = Vec::new();
+    for track in tracks {
+        let InClip::Target(target) = track.of else { continue };
+        let is_known = |drive: &Drive| drive.target == target;
+        let has_unit = library.units.units.iter().any(|unit| unit.drives.iter().any(is_known));
+        if !has_unit && !turns_joints(target) && !driven.contains(&target) {
+            driven.push(target);
+        }
+    }
+    for target in driven {
+        let id = match target {
+            Driven::Channel(channel) => channel.id().to_owned(),
+            Driven::Muscle(muscle) => library.muscles.muscles[muscle].id.clone(),
+        };
+        let sides: &[Side] = if target.is_median() { &[Side::Both] } else { &[Side::Left, Side::Right] };
+        out.extend(sides.iter().map(|&side| {
+            let name = names::with_side(id.clone(), side);
+            Target { name, source: Source::Driven(target), side, kind: Kind::Shape, moved: Arc::default() }
+        }));
     }
     out
 }
 
+/// The value of a channel or muscle at its most.
+fn most(library: &Library, target: Driven) -> f32 {
+    match target {
+        Driven::Channel(channel) => library.limits.of(channel).range.1,
+        Driven::Muscle(_) => 1.0,
+    }
+}
+
 /// Whether a joint of the file takes part in what a unit drives.
-fn turns_joints(drive: &Drive) -> bool {
-    let Driven::Channel(channel) = drive.target else { return false };
+fn turns_joints(target: Driven) -> bool {
+    let Driven::Channel(channel) = target else { return false };
     match channel {
         Channel::Pupil
         | Channel::LidClosed
@@ -126,15 +166,24 @@ fn turns_joints(drive: &Drive) -> bool {
 }
 
 impl Target {
-    /// Its unit alone, at 1.
-    pub(super) fn asked(&self) -> Activation {
-        asked(self.unit, self.side, 1.0)
+    /// Its source alone, at 1.
+    pub(super) fn pose(&self, library: &Library) -> Pose {
+        match self.source {
+            Source::Unit(unit) => alone(library, &asked(unit, self.side, 1.0)),
+            Source::Driven(target) => {
+                let mut pose = Pose::default();
+                let values = target.of(&mut pose);
+                *values = self.side.put(*values, most(library, target));
+                pose
+            }
+        }
     }
 
-    /// Whether another target's unit drives the same.
-    pub(super) fn is_posed_like(&self, other: &Self, library: &Library) -> bool {
-        let [a, b] = [self.unit, other.unit].map(|unit| &library.units.units[unit]);
-        self.side == other.side && a.sides == b.sides && a.drives == b.drives
+    /// Whether another target is of the same kind and its unit drives the same.
+    pub(super) fn is_like(&self, other: &Self, library: &Library) -> bool {
+        let (Source::Unit(a), Source::Unit(b)) = (self.source, other.source) else { return false };
+        let [a, b] = [a, b].map(|unit| &library.units.units[unit]);
+        self.side == other.side && self.kind == other.kind && a.sides == b.sides && a.drives == b.drives
     }
 
     /// What moves: `frame`: the head in the unit's pose, `rest`: at rest, `bend`: the joints in the pose.
@@ -173,13 +222,39 @@ impl Target {
         frame.parts.iter().zip(rest).zip(parts).map(of_part).collect()
     }
 
-    /// How strongly an activation asks for it.
-    pub(super) fn strength(&self, activation: &Activation) -> f32 {
-        let [left, right] = activation.get(self.unit);
-        match self.side {
+    /// How strongly it is asked for, 0 to 1.
+    pub(super) fn strength(&self, library: &Library, asked: &Moment) -> f32 {
+        let mut direct = asked.direct;
+        let ([left, right], most) = match self.source {
+            Source::Unit(unit) => (asked.units.get(unit), 1.0),
+            Source::Driven(target) => (*target.of(&mut direct), most(library, target)),
+        };
+        let value = match self.side {
             Side::Both => left.max(right),
             Side::Left => left,
             Side::Right => right,
+        };
+        (value / most).clamp(0.0, 1.0)
+    }
+
+    /// Whether a pose does something of what it is made of.
+    pub(super) fn takes_part(&self, library: &Library, pose: &Pose) -> bool {
+        let mut pose = *pose;
+        let mut goes = |target: Driven, value: f32| {
+            let [left, right] = *target.of(&mut pose);
+            let values = match self.side {
+                _ if target.is_median() => [left; 2],
+                Side::Both => [left, right],
+                Side::Left => [left; 2],
+                Side::Right => [right; 2],
+            };
+            let is_mirrored = self.side == Side::Right && target.is_lateral();
+            let value = if is_mirrored { -value } else { value };
+            values.iter().any(|v| v * value > 0.0)
+        };
+        match self.source {
+            Source::Unit(unit) => library.units.units[unit].drives.iter().any(|d| goes(d.target, d.value)),
+            Source::Driven(target) => goes(target, 1.0),
         }
     }
 }

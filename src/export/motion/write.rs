@@ -4,13 +4,13 @@ use super::Motion;
 use super::joints::{JOINT_NAMES, N_JOINTS, NECK, PARENTS};
 use super::targets::{Kind as TargetKind, Moved};
 use crate::export::glb::{Kind, Writer};
+use glam::{Quat, Vec3};
 use gltf_json as json;
 use json::accessor::{ComponentType, Type, sparse};
 use json::animation::{Channel, Interpolation, Property, Sampler, Target as ChannelTarget};
 use json::mesh::{MorphTarget, Semantic};
 use json::scene::UnitQuaternion;
 use json::validation::{Checked, USize64};
-use glam::{Quat, Vec3};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -225,7 +225,8 @@ impl<'a> Mover<'a> {
                     animation.channel(sampler, mesh, Property::MorphTargetWeights);
                 }
             }
-            let extras = clip.repeats.then(|| serde_json::value::to_raw_value(&BTreeMap::from([("londra_repeats", true)])));
+            let extras =
+                clip.repeats.then(|| serde_json::value::to_raw_value(&BTreeMap::from([("londra_repeats", true)])));
             writer.root.push(json::Animation {
                 name: Some(clip.name.clone()),
                 channels: animation.channels,
