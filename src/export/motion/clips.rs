@@ -109,8 +109,8 @@ fn times(seconds: f64) -> Vec<f64> {
 fn record(puppet: &mut Puppet, library: &Library, targets: &[Target], mix: &Mix, samples: &[Sample]) -> Option<Clip> {
     let rest = *puppet.joints();
     let n = samples.len();
-    let mut turns = vec![Vec::with_capacity(n); N_JOINTS];
-    let mut shifts = vec![Vec::with_capacity(n); N_JOINTS];
+    let mut turns: Vec<Vec<Quat>> = vec![Vec::new(); N_JOINTS];
+    let mut shifts: Vec<Vec<Vec3>> = vec![Vec::new(); N_JOINTS];
     let mut weights: Vec<f32> = Vec::with_capacity(n * targets.len());
     for sample in samples {
         let bend = puppet.take(&sample.pose);

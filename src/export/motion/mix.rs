@@ -28,14 +28,8 @@ impl Mix {
         let dot = |a: &[Vec3], b: &[Vec3]| a.iter().zip(b).map(|(a, b)| f64::from(a.dot(*b))).sum::<f64>();
         let is_used = |k: usize| targets[k].kind != Kind::WithoutJoints;
         let product = |a: usize, b: usize| if is_used(a) && is_used(b) { dot(&shapes[a], &shapes[b]) } else { 0.0 };
-        let n = targets.len();
-        let mut products = vec![vec![0.0; n]; n];
-        for a in 0..n {
-            for b in 0..=a {
-                products[a][b] = product(a, b);
-                products[b][a] = products[a][b];
-            }
-        }
+        let all = 0..targets.len();
+        let products = all.clone().map(|a| all.clone().map(|b| product(a, b)).collect()).collect();
         let moved = |shape: &Vec<Vec3>| {
             let all = shape.iter().enumerate().filter(|(_, d)| **d != Vec3::ZERO);
             all.map(|(v, &d)| (v as u32, d)).collect()

@@ -63,9 +63,9 @@ impl Puppet {
         (joints[NECK], joints[HEAD], joints[JAW]) = (pivot, pivot, hinge);
         for side in 0..2 {
             joints[EYES[side]] = head.eyes[side].centre;
-            for (&joint, vertices) in EARS[side].iter().zip(&ears[side]) {
-                joints[joint] = mean(&head.control, vertices);
-            }
+        }
+        for (&joint, vertices) in EARS.iter().flatten().zip(ears.iter().flatten()) {
+            joints[joint] = mean(&head.control, vertices);
         }
         for (&joint, vertices) in TONGUE.iter().zip(&tongue) {
             joints[joint] = mean(&mouth.tongue, vertices).with_x(0.0);
@@ -114,10 +114,8 @@ impl Puppet {
         }
         let fit =
             |vertices: &[usize], first: usize| rigid_fit(vertices.iter().map(|&v| (rest[first + v], posed[first + v])));
-        for side in 0..2 {
-            for (&joint, vertices) in EARS[side].iter().zip(&self.ears[side]) {
-                all[joint] = fit(vertices, 0);
-            }
+        for (&joint, vertices) in EARS.iter().flatten().zip(self.ears.iter().flatten()) {
+            all[joint] = fit(vertices, 0);
         }
         for (&joint, vertices) in TONGUE.iter().zip(&self.tongue) {
             all[joint] = fit(vertices, n);
