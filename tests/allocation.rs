@@ -6,6 +6,8 @@ use std::cell::Cell;
 
 use glam::Vec3;
 use londra::mesh::shapes::cabinet;
+#[cfg(feature = "head")]
+use londra::motion::{Act, Build, Cue, Library, Life, Mixed, Stimulus, Temper};
 use londra::subdiv::{Evaluator, Plan, Scheme};
 
 thread_local! {
@@ -63,4 +65,26 @@ fn a_frame_in_the_steady_state_allocates() {
             assert_eq!(n, 0, "{} level {levels}", shape.name);
         }
     }
+}
+
+#[cfg(feature = "head")]
+#[test]
+fn a_pose_in_the_steady_state_allocates() {
+    let library = Library::embedded().expect("tables that can be read");
+    let mut act = Act::new(Build::default());
+    for clip in 0..library.clips.len() {
+        act.player.layer(Cue::new(&library, clip, 0.0, 0.1));
+    }
+    act.expressions =
+        (0..library.expressions.len()).map(|expression| Mixed { expression, weight: 0.3, start: Some(0.0) }).collect();
+    act.life = Some(Life::new(1, Temper::default()));
+    let mut overruled = 0;
+    let n = allocations(|| {
+        for frame in 0..30 {
+            let time = f64::from(frame) / 30.0;
+            std::hint::black_box(act.pose(&library, time, |_| Stimulus::default(), |_| overruled += 1));
+        }
+    });
+    assert_eq!(n, 0);
+    assert!(overruled > 0, "rules were at work");
 }

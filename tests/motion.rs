@@ -1,7 +1,9 @@
 //! What the head does: tables, rules, notation, expressions, clips, life. No mesh is needed for any of it.
 
+use londra::math::fnv::Fnv64;
 use londra::math::rng::Rng;
 use londra::motion::*;
+use std::fmt::Write as _;
 
 fn library() -> Library {
     Library::embedded().expect("tables that can be read")
@@ -620,4 +622,94 @@ fn hanging_ears_stick_to_a_head_that_looks_down_or_standing_ones_fall() {
     assert!(bend(-1.0, 0.0, "AD54").0.abs() < 0.1);
     let (_, [left, right]) = bend(1.0, 1.0, "AD55");
     assert!(left > 8.0 && right < -8.0, "the crown goes to the left shoulder: both tips stay behind on the left");
+}
+
+fn hash(library: &Library, pose: &Pose) -> u64 {
+    let mut hash = Fnv64::new();
+    let channels = Channel::ALL.iter().flat_map(|&channel| pose.channel(channel));
+    let muscles = (0..library.muscles.muscles.len()).flat_map(|muscle| pose.muscle(muscle));
+    channels.chain(muscles).for_each(|value| hash.u32(value.to_bits()));
+    hash.finish()
+}
+
+/// A line for each expression and clip at three times, and for life at three times under two seeds.
+fn hashes(library: &Library) -> String {
+    let mut out = String::from("# kind id seconds hash; written by UPDATE_HASHES=1 cargo test --test motion\n");
+    let mut add = |kind: &str, id: &str, time: f64, act: &mut Act| {
+        let pose = act.pose(library, time, stimulus, |_| ());
+        let _ = writeln!(out, "{kind} {id} {time:.3} {:016x}", hash(library, &pose));
+    };
+    for (expression, spec) in library.expressions.iter().enumerate() {
+        let mut act = Act::new(Build::default());
+        act.expressions.push(Mixed { expression, weight: 1.0, start: Some(0.0) });
+        for time in [0.5 * spec.still_s, spec.still_s, 0.9 * spec.seconds()] {
+            add("expression", &spec.id, time, &mut act);
+        }
+    }
+    for (clip, spec) in library.clips.iter().enumerate() {
+        let mut act = Act::new(Build::default());
+        act.player.layer(Cue::new(library, clip, 0.0, 0.1));
+        for part in [0.3, 0.5, 0.8] {
+            add("clip", &spec.id, part * spec.seconds, &mut act);
+        }
+    }
+    for seed in [1, 2] {
+        let mut act = Act::new(Build::default());
+        act.life = Some(Life::new(seed, Temper::default()));
+        for time in [1.0, 3.3, 7.7] {
+            add("life", &seed.to_string(), time, &mut act);
+        }
+    }
+    out
+}
+
+#[test]
+fn a_pose_has_other_bits_than_the_committed_ones() {
+    let made = hashes(&library());
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/motion_hashes.txt");
+    if std::env::var_os("UPDATE_HASHES").is_some() {
+        std::fs::write(file, &made).expect("a file that can be written");
+        return;
+    }
+    let committed = std::fs::read_to_string(file).unwrap_or_default().replace("\r\n", "\n");
+    let differing: Vec<&str> = made.lines().filter(|line| !committed.lines().any(|c| c == *line)).collect();
+    assert!(
+        differing.is_empty() && made == committed,
+        "differs from tests/motion_hashes.txt:\n{}\nIf that is meant, run UPDATE_HASHES=1 cargo test --test motion and say why in CHANGELOG.md.",
+        differing.join("\n")
+    );
+}
+
+/// Not a test of speed: it prints what a pose costs, beside copying the numbers that it is made of.
+#[test]
+#[ignore = "prints a measurement"]
+fn cost_of_a_pose() {
+    let library = library();
+    let mut act = act(&library);
+    act.life = Some(Life::new(1, Temper::default()));
+    let mut best = [f64::INFINITY; 3];
+    for _ in 0..20 {
+        act.restart();
+        let start = std::time::Instant::now();
+        for frame in 0..60 {
+            std::hint::black_box(act.pose(&library, f64::from(frame) / 60.0, stimulus, |_| ()));
+        }
+        best[0] = best[0].min(start.elapsed().as_secs_f64() / 60.0);
+        let moment = act.asked(&library, 2.0);
+        let start = std::time::Instant::now();
+        for _ in 0..1000 {
+            std::hint::black_box(library.pose(std::hint::black_box(&moment), 2.0, |_| ()));
+        }
+        best[1] = best[1].min(start.elapsed().as_secs_f64() / 1000.0);
+        let positions = vec![glam::Vec3::ONE; 4000];
+        let mut copy = positions.clone();
+        let start = std::time::Instant::now();
+        for _ in 0..1000 {
+            copy.copy_from_slice(std::hint::black_box(&positions));
+            std::hint::black_box(&mut copy);
+        }
+        best[2] = best[2].min(start.elapsed().as_secs_f64() / 1000.0);
+    }
+    let [frame, pose, copy] = best.map(|seconds| seconds * 1e6);
+    println!("a frame at 60 Hz with its steps {frame:.1} us, one pose {pose:.2} us, copying 4000 points {copy:.2} us");
 }

@@ -543,7 +543,7 @@ fn a_clip_does_not_play_stop_or_step() {
     let (time, _) = harness.state().motion.timeline();
     assert!(time > 0.1, "{time}");
     harness.get_by_label("Pause").click();
-    harness.run_steps(4);
+    harness.run_steps(2);
     harness.run();
     let stopped = harness.state().motion.timeline().0;
     harness.run();

@@ -8,6 +8,7 @@ use egui::RichText;
 /// The whole panel.
 pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
     ui.add_space(4.0);
+    ui.spacing_mut().slider_width = 80.0;
     let motion = &mut state.motion;
     ui.horizontal_wrapped(|ui| {
         if ui.button("Reset motion").on_hover_text("Every unit, expression and clip to rest").clicked() {
@@ -107,12 +108,14 @@ fn timeline(motion: &mut Motion, ui: &mut egui::Ui) {
         ui.add(speed).labelled_by(label.id);
     });
     if let (mut time, Some(length)) = motion.timeline() {
-        let label = ui.label("Time");
-        ui.spacing_mut().slider_width = (ui.available_width() - 70.0).max(60.0);
-        let slider = egui::Slider::new(&mut time, 0.0..=length).custom_formatter(two_decimals).suffix(" s");
-        if ui.add(slider).labelled_by(label.id).changed() {
-            motion.scrub(time);
-        }
+        ui.horizontal(|ui| {
+            let label = ui.label("Time");
+            ui.spacing_mut().slider_width = (ui.available_width() - 90.0).max(60.0);
+            let slider = egui::Slider::new(&mut time, 0.0..=length).custom_formatter(two_decimals).suffix(" s");
+            if ui.add(slider).labelled_by(label.id).changed() {
+                motion.scrub(time);
+            }
+        });
     }
 }
 
@@ -126,7 +129,7 @@ fn expressions(motion: &mut Motion, ui: &mut egui::Ui) {
             };
             let mut weight = motion.weight(number);
             let button = ui.selectable_label(weight > 0.0, id).on_hover_text(&label);
-            let slider = part(&mut weight);
+            let slider = part(&mut weight).show_value(false);
             if ui.add(slider).labelled_by(button.id).changed() {
                 motion.set_weight(number, weight);
             }
