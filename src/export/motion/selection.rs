@@ -1,7 +1,7 @@
 //! Which units and clips a file shall have.
 
 use crate::anatomy::nearest;
-use crate::motion::{Library, Side, UnitError};
+use crate::motion::{Library, Moved, RuleKind, Side, UnitError};
 
 /// Units and clips by their numbers in the library, each once, rising.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,6 +98,30 @@ impl Selection {
             numbers.dedup();
         }
         Ok(out)
+    }
+
+    /// Units that need targets, by number: those that are selected, and on both sides those that the expressions and clips
+    /// move, with what comes along with them.
+    pub(super) fn moving_units(&self, library: &Library) -> Vec<(usize, Side)> {
+        let table = &library.units;
+        let mut moves = vec![false; table.units.len()];
+        let parts = self.expressions.iter().flat_map(|&k| &library.expressions[k].parts);
+        parts.for_each(|part| moves[part.unit] = true);
+        let layers = self.clips.iter().flat_map(|&k| &library.clips[k].layers);
+        for track in layers.flat_map(|layer| &layer.tracks) {
+            if let Moved::Unit(unit) = track.of {
+                moves[unit] = true;
+            }
+        }
+        for rule in &table.rules {
+            if let RuleKind::Implies(unit, along, _) = rule.kind {
+                moves[along] |= moves[unit];
+            }
+        }
+        let selected = |unit: usize| self.units.iter().find(|(number, _)| *number == unit).map(|(_, side)| *side);
+        let side = |unit: usize| if moves[unit] { Some(Side::Both) } else { selected(unit) };
+        let all = (0..moves.len()).filter(|&unit| !table.units[unit].drives.is_empty());
+        all.filter_map(|unit| Some((unit, side(unit)?))).collect()
     }
 
     /// Whether nothing is selected.

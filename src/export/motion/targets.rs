@@ -74,15 +74,18 @@ impl Drawn {
     }
 }
 
-/// The targets of the units that are selected, in the order of their table, and of what clips move beside units; nothing
-/// moves yet.
+/// The targets of the units that are selected or that expressions and clips move, in the order of their table, and of what
+/// clips move beside units; nothing moves yet.
 pub(super) fn wanted(library: &Library, selection: &Selection) -> Vec<Target> {
+    let is_selected = |number: usize| selection.units.iter().any(|(selected, _)| *selected == number);
     let mut out = Vec::new();
-    for &(number, side) in &selection.units {
+    for (number, side) in selection.moving_units(library) {
         let unit = &library.units.units[number];
         let kinds: &[Kind] = match unit.drives.iter().any(|drive| turns_joints(drive.target)) {
             false => &[Kind::Shape],
-            true if WITHOUT_JOINTS.contains(&unit.id.as_str()) => &[Kind::WithoutJoints, Kind::Corrective],
+            true if is_selected(number) && WITHOUT_JOINTS.contains(&unit.id.as_str()) => {
+                &[Kind::WithoutJoints, Kind::Corrective]
+            }
             true => &[Kind::Corrective],
         };
         let sides: &[Side] = match (unit.sides, side) {
@@ -96,8 +99,7 @@ pub(super) fn wanted(library: &Library, selection: &Selection) -> Vec<Target> {
             }));
         }
     }
-    let clips = if selection.units.is_empty() { &[][..] } else { &selection.clips };
-    let tracks = clips.iter().flat_map(|&k| &library.clips[k].layers).flat_map(|layer| &layer.tracks);
+    let tracks = selection.clips.iter().flat_map(|&k| &library.clips[k].layers).flat_map(|layer| &layer.tracks);
     let mut driven: Vec<Driven> = Vec::new();
     for track in tracks {
         let InClip::Target(target) = track.of else { continue };
