@@ -802,6 +802,36 @@ fn a_texture_is_not_in_the_file_or_has_a_size_that_nobody_asked_for() {
 }
 
 #[test]
+fn a_head_that_shall_move_elsewhere_stands_still_or_does_what_nobody_asked_for() {
+    let folder = folder();
+    let path = folder.path().join("pug.glb");
+    let target = path.to_str().unwrap();
+    let export = |words: &[&'static str]| {
+        let all = ["export", "--breed", "pug", "--level", "1", "-o", target, "--json"];
+        let all: Vec<&str> = all.into_iter().chain(words.iter().copied()).collect();
+        let facts: Value = serde_json::from_str(&done(&all).stdout).unwrap();
+        let (document, ..) = gltf::import(&path).unwrap();
+        assert_eq!(facts["animations"], document.animations().count());
+        assert_eq!(facts["bytes"], std::fs::metadata(&path).unwrap().len());
+        document
+    };
+    let moving = export(&["--units", "AU26,EAD103L", "--clips", "blink,yawning", "--textures", "256"]);
+    let names: Vec<&str> = moving.animations().filter_map(|a| a.name()).collect();
+    assert_eq!(names, ["AU26_jawDrop", "EAD103_earsFlattener_L", "yawning", "blink"]);
+    let still = export(&["--units", "none", "--clips", "none"]);
+    assert_eq!((still.skins().count(), still.animations().count()), (0, 0));
+    let refuse = |words: &[&'static str], hints: &[&str]| {
+        let all: Vec<&str> =
+            ["export", "--breed", "pug", "-o", target].into_iter().chain(words.iter().copied()).collect();
+        refused(&all, 2, hints);
+    };
+    refuse(&["--units", "AU102"], &["AU102", "AU101"]);
+    refuse(&["--clips", "yaun"], &["yaun", "yawn"]);
+    refuse(&["--units", "AD50"], &["behaviour over time", "bark"]);
+    refuse(&["--units", "AU26", "--unit", "AU26=1"], &["at rest"]);
+}
+
+#[test]
 fn a_turn_has_other_pictures_than_its_frames() {
     let folder = folder();
     let pattern = folder.path().join("turn_%02d.png");

@@ -138,6 +138,7 @@ fn material_name(material: Material) -> &'static str {
         Material::ThirdEyelid => "third_eyelid",
         Material::Tears => "tears",
         Material::Whisker => "whisker",
+        Material::Muscle => "muscle",
     }
 }
 

@@ -510,6 +510,8 @@ const MOST_DOGS: i64 = 1000;
     londra export --breed pug -o pug.glb\n  \
     londra export --breed dalmatian --textures 2048 --threads 2 -o dalmatian.glb\n  \
     londra export --breed labrador --expression yawning -o yawn.glb\n  \
+    londra export --breed beagle --units all --clips all --level 3 -o moving.glb\n  \
+    londra export --breed beagle --units AU26,AU27,EAD103 --clips yawn,blink -o yawn.glb\n  \
     londra export --breed labrador --set ear_length_mm=150 --level 2 -o - > light.glb")]
 pub(super) struct Export {
     #[command(flatten)]
@@ -522,6 +524,12 @@ pub(super) struct Export {
     /// colours at the vertices
     #[arg(long, value_name = "SIZE", value_parser = values::texture)]
     pub textures: Option<u32>,
+    /// Let the head move elsewhere: joints, and a morph target and a calibration reel for each of these DogFACS units
+    #[arg(long = "units", value_name = "all|none|A,B,C", default_value = "none")]
+    pub moving_units: String,
+    /// Let the head move elsewhere: joints, and an animation for each of these expressions and clips
+    #[arg(long = "clips", value_name = "all|none|A,B,C", default_value = "none")]
+    pub moving_clips: String,
     /// Who holds the rights, as it shall stand in the file
     #[arg(long, value_name = "TEXT")]
     pub copyright: Option<String>,

@@ -73,6 +73,8 @@ pub(super) struct Geometry {
 
 /// Where the data of one primitive lies.
 pub(super) struct PrimitiveData {
+    /// Its vertices: numbers of the part's vertices to draw, ascending.
+    pub vertices: Vec<usize>,
     /// First vertex among all vertices written.
     pub first_vertex: usize,
     pub n_vertices: usize,
@@ -147,6 +149,7 @@ impl Geometry {
         self.n_vertices += n_vertices;
         let max_index = n_vertices as u32 - 1;
         Ok(PrimitiveData {
+            vertices: used,
             first_vertex,
             n_vertices,
             first_uv_byte,
@@ -204,7 +207,7 @@ fn used_vertices(part: &Part<'_>, indices: &[u32]) -> Result<Vec<usize>, Geometr
 }
 
 /// A value of a vertex to draw, which along the seams of a texture may lie between two vertices of the part.
-fn value(part: &Part<'_>, values: &[Vec3], vertex: usize) -> Vec3 {
+pub(super) fn value(part: &Part<'_>, values: &[Vec3], vertex: usize) -> Vec3 {
     match part.uv.map(|uv| uv.vertices[vertex]) {
         None => values[vertex],
         Some([a, b]) if a == b => values[a as usize],
@@ -217,7 +220,7 @@ fn finite(part: &Part<'_>, vertex: usize, what: &'static str, value: Vec3) -> Re
 }
 
 /// A format's normal must have unit length. A frame's normals have, but for a vertex whose triangles all have collapsed.
-fn unit(normal: Vec3) -> Vec3 {
+pub(super) fn unit(normal: Vec3) -> Vec3 {
     if (normal.length_squared() - 1.0).abs() < 1e-3 { normal } else { normal.try_normalize().unwrap_or(Vec3::Y) }
 }
 

@@ -8,6 +8,7 @@
 
 use super::geometry::{Geometry, GeometryError, PrimitiveData};
 use super::materials::{self, Maps};
+use super::motion::{Motion, Mover};
 use super::textures::Textures;
 use crate::anatomy::{Breed, ParamTable, save_breed};
 use crate::frame::{Frame, Material, MaterialRange, Part};
@@ -28,6 +29,8 @@ pub struct GlbOptions {
     pub copyright: Option<String>,
     /// The frame's textures: what has them has no colours at its vertices.
     pub textures: Option<Textures>,
+    /// How the frame, which is at rest, moves: joints, targets and animations.
+    pub motion: Option<Motion>,
 }
 
 /// Why a head cannot be written.
@@ -50,6 +53,9 @@ pub enum GlbError {
         /// Vertices to draw of the frame's skin.
         expected: usize,
     },
+    /// Motion of another frame.
+    #[error("the motion is that of another head: {0} has other vertices to draw, or is not there")]
+    Motion(String),
     /// The JSON could not be written.
     #[error("the glTF description could not be written: {0}")]
     Json(#[from] serde_json::Error),
@@ -64,11 +70,19 @@ pub fn to_glb(frame: &Frame<'_>, table: &ParamTable, breed: &Breed, options: &Gl
     if let Some(textures) = &options.textures {
         writer.textures(textures);
     }
-    let children = writer.parts(frame, breed.look.fur, options.textures.as_ref())?;
+    let mut mover = options.motion.as_ref().map(|motion| fitting(motion, frame)).transpose()?;
+    let mut children = writer.parts(frame, breed.look.fur, options.textures.as_ref(), mover.as_mut())?;
+    // What is skinned stands beside the head, which cannot move it.
+    let mut beside = Vec::new();
+    if let Some(mover) = &mover {
+        let neck = mover.skeleton(&mut writer, &children);
+        mover.animations(&mut writer, neck, &children)?;
+        beside = std::mem::replace(&mut children, vec![neck]);
+    }
     let binary = writer.buffer();
 
     let mut root = writer.root;
-    let extras = extras(table, breed, options)?;
+    let extras = extras(table, breed, options, mover.as_ref())?;
     let nodes = &mut root.nodes;
     nodes.push(json::Node {
         name: Some("londra_head".to_owned()),
@@ -77,12 +91,23 @@ pub fn to_glb(frame: &Frame<'_>, table: &ParamTable, breed: &Breed, options: &Gl
         ..Default::default()
     });
     let head = json::Index::new(nodes.len() as u32 - 1);
-    root.scenes =
-        vec![json::Scene { extensions: None, extras: None, name: Some("londra".to_owned()), nodes: vec![head] }];
+    let nodes = std::iter::once(head).chain(beside).collect();
+    root.scenes = vec![json::Scene { extensions: None, extras: None, name: Some("londra".to_owned()), nodes }];
     root.scene = Some(json::Index::new(0));
     root.asset.generator = Some(concat!("Londra ", env!("CARGO_PKG_VERSION")).to_owned());
     root.asset.copyright = options.copyright.clone();
     container(root.to_vec()?, binary)
+}
+
+/// The motion, if it is that of the frame.
+fn fitting<'a>(motion: &'a Motion, frame: &Frame<'_>) -> Result<Mover<'a>, GlbError> {
+    let n_drawn = |part: &Part<'_>| part.uv.map_or(part.topology.n_vertices, |uv| uv.vertices.len());
+    for (k, part) in frame.parts.iter().enumerate() {
+        let moving =
+            motion.parts.get(k).filter(|m| m.name == part.topology.name && m.influences.len() == n_drawn(part));
+        moving.ok_or_else(|| GlbError::Motion(part.topology.name.to_owned()))?;
+    }
+    Ok(Mover::new(motion))
 }
 
 /// Breed, values and origin as flat scalars. Sorted by key.
@@ -90,6 +115,7 @@ fn extras(
     table: &ParamTable,
     breed: &Breed,
     options: &GlbOptions,
+    mover: Option<&Mover<'_>>,
 ) -> Result<Box<serde_json::value::RawValue>, serde_json::Error> {
     let values: BTreeMap<&str, f64> =
         table.specs.iter().zip(&breed.values).map(|(spec, &si)| (spec.id.as_str(), spec.from_si(si))).collect();
@@ -104,12 +130,15 @@ fn extras(
     if let Some(copyright) = &options.copyright {
         extras.insert("londra_copyright", copyright.as_str().into());
     }
+    if let Some(mover) = mover {
+        mover.extras(&mut extras);
+    }
     serde_json::value::to_raw_value(&extras)
 }
 
 /// The kinds of data, in the order in which they lie in the buffer; pictures come behind them.
 #[derive(Clone, Copy)]
-enum Kind {
+pub(super) enum Kind {
     Positions,
     Normals,
     Tangents,
@@ -117,12 +146,46 @@ enum Kind {
     Uvs,
     IndicesU16,
     IndicesU32,
+    Joints,
+    Weights,
+    Targets,
+    /// What sparse data stands on.
+    Zeros,
+    SparseValues,
+    SparseU16,
+    SparseU32,
+    Binds,
+    Keys,
 }
 
+/// Name, stride and use of each kind's view.
+const VIEWS: [(&str, Option<usize>, Option<Target>); 16] = [
+    ("positions", Some(12), Some(Target::ArrayBuffer)),
+    ("normals", Some(12), Some(Target::ArrayBuffer)),
+    ("tangents", Some(16), Some(Target::ArrayBuffer)),
+    ("colours", Some(4), Some(Target::ArrayBuffer)),
+    ("uvs", Some(8), Some(Target::ArrayBuffer)),
+    ("indices_u16", None, Some(Target::ElementArrayBuffer)),
+    ("indices_u32", None, Some(Target::ElementArrayBuffer)),
+    ("joints", Some(4), Some(Target::ArrayBuffer)),
+    ("weights", Some(8), Some(Target::ArrayBuffer)),
+    ("targets", Some(12), Some(Target::ArrayBuffer)),
+    ("zeros", Some(12), Some(Target::ArrayBuffer)),
+    ("sparse_values", None, None),
+    ("sparse_indices_u16", None, None),
+    ("sparse_indices_u32", None, None),
+    ("inverse_binds", None, None),
+    ("keys", None, None),
+];
+/// Kinds that are gathered with the geometry; the others come behind them.
+const N_GEOMETRY: usize = Kind::Joints as usize;
+
 #[derive(Default)]
-struct Writer {
-    root: json::Root,
+pub(super) struct Writer {
+    pub(super) root: json::Root,
     geometry: Geometry,
+    /// Of the kinds behind the geometry.
+    motion: [Vec<u8>; VIEWS.len() - N_GEOMETRY],
     materials: BTreeMap<Material, json::Index<json::Material>>,
     /// Accessors and the kind of data each points into; the views are known only at the end.
     kinds: Vec<Kind>,
@@ -178,6 +241,7 @@ impl Writer {
         frame: &Frame<'_>,
         fur: f32,
         textures: Option<&Textures>,
+        mut mover: Option<&mut Mover<'_>>,
     ) -> Result<Vec<json::Index<json::Node>>, GlbError> {
         // Materials stand in the order of the enum, whatever the order of the parts.
         let all = frame.parts.iter().flat_map(ranges).filter(|r| r.count > 0);
@@ -191,7 +255,7 @@ impl Writer {
         self.name_extensions();
 
         let mut children = Vec::new();
-        for part in &frame.parts {
+        for (k, part) in frame.parts.iter().enumerate() {
             let mut primitives = Vec::new();
             let tangents = textures.and_then(|textures| textures.tangents_of(part));
             if let Some(found) = tangents.map(<[_]>::len) {
@@ -203,13 +267,23 @@ impl Writer {
             for range in ranges(part).iter().filter(|r| r.count > 0) {
                 let coloured = part.uv.is_none() || self.maps(range.material).is_none();
                 let data = self.geometry.push(part, range, tangents, coloured)?;
-                primitives.push(self.primitive(&data, range.material));
+                let mut primitive = self.primitive(&data, range.material);
+                if let Some(mover) = &mut mover {
+                    mover.primitive(self, k, &data.vertices, &mut primitive);
+                }
+                primitives.push(primitive);
             }
             if primitives.is_empty() {
                 continue;
             }
-            let name = Some(part.topology.name.to_owned());
-            let mesh = json::Mesh { extensions: None, extras: None, name: name.clone(), primitives, weights: None };
+            let name = part.topology.name;
+            let own = Some(name.to_owned());
+            let mut mesh = json::Mesh { extensions: None, extras: None, name: own, primitives, weights: None };
+            if let Some(mover) = &mover {
+                mover.mesh(&mut mesh)?;
+            }
+            // Joints have the plain names where there are any, and no two nodes share one.
+            let name = Some(if mover.is_some() { format!("mesh_{name}") } else { name.to_owned() });
             let mesh = Some(self.root.push(mesh));
             children.push(self.root.push(json::Node { name, mesh, ..Default::default() }));
         }
@@ -267,7 +341,23 @@ impl Writer {
         }
     }
 
-    fn accessor(
+    /// Data of a kind behind the geometry.
+    pub(super) fn bytes(&mut self, kind: Kind) -> &mut Vec<u8> {
+        &mut self.motion[kind as usize - N_GEOMETRY]
+    }
+
+    /// Bytes of it so far.
+    pub(super) fn len(&self, kind: Kind) -> usize {
+        self.motion[kind as usize - N_GEOMETRY].len()
+    }
+
+    /// Makes sure of so many zero vectors.
+    pub(super) fn zeros(&mut self, n: usize) {
+        let length = self.len(Kind::Zeros).max(12 * n);
+        self.bytes(Kind::Zeros).resize(length, 0);
+    }
+
+    pub(super) fn accessor(
         &mut self,
         kind: Kind,
         offset: usize,
@@ -298,27 +388,19 @@ impl Writer {
     fn buffer(&mut self) -> Vec<u8> {
         let Geometry { positions, normals, tangents, colours, uvs, indices_u16, indices_u32, .. } =
             std::mem::take(&mut self.geometry);
-        let data = [positions, normals, tangents, colours, uvs, indices_u16, indices_u32];
-        let mut views = [None; 7];
+        let geometry = [positions, normals, tangents, colours, uvs, indices_u16, indices_u32];
+        let mut views = [None; VIEWS.len()];
         let mut binary = Vec::new();
-        for (slot, bytes) in data.iter().enumerate().filter(|(_, bytes)| !bytes.is_empty()) {
-            let (name, stride) = match slot {
-                0 => ("positions", Some(Stride(12))),
-                1 => ("normals", Some(Stride(12))),
-                2 => ("tangents", Some(Stride(16))),
-                3 => ("colours", Some(Stride(4))),
-                4 => ("uvs", Some(Stride(8))),
-                5 => ("indices_u16", None),
-                _ => ("indices_u32", None),
-            };
-            let target = if stride.is_some() { Target::ArrayBuffer } else { Target::ElementArrayBuffer };
+        let data = geometry.iter().chain(&self.motion).enumerate().filter(|(_, bytes)| !bytes.is_empty());
+        for (slot, bytes) in data {
+            let (name, stride, target) = VIEWS[slot];
             views[slot] = Some(self.root.push(json::buffer::View {
                 buffer: json::Index::new(0),
                 byte_length: USize64::from(bytes.len()),
                 byte_offset: Some(USize64::from(binary.len())),
-                byte_stride: stride,
+                byte_stride: stride.map(Stride),
                 name: Some(name.to_owned()),
-                target: Some(Checked::Valid(target)),
+                target: target.map(Checked::Valid),
                 extensions: None,
                 extras: None,
             }));
@@ -342,6 +424,12 @@ impl Writer {
         }
         for (accessor, kind) in self.root.accessors.iter_mut().zip(&self.kinds) {
             accessor.buffer_view = views[*kind as usize];
+            if let Some(sparse) = &mut accessor.sparse {
+                for view in [&mut sparse.indices.buffer_view, &mut sparse.values.buffer_view] {
+                    // The kind stood for it.
+                    *view = views[view.value()].unwrap_or(*view);
+                }
+            }
         }
         if !binary.is_empty() {
             let byte_length = USize64::from(binary.len());

@@ -3,6 +3,7 @@
 mod geometry;
 mod glb;
 mod materials;
+pub mod motion;
 mod textures;
 
 pub use geometry::GeometryError;

@@ -49,12 +49,13 @@ impl MouthParts {
         })
     }
 
-    /// `head`: measures and proportions, where they changed; `unit`: metres of a millimetre of the head with a skull of 200 mm.
+    /// `head`: measures and proportions, where they changed; `size`: metres of a millimetre of the head with a skull of 200
+    /// mm, and how far in front its skin reaches.
     pub(super) fn shape(&mut self, head: Option<(&Measures, &Proportions)>, pose: &Pose, places: &Places, unit: f32) {
         if let Some((measures, proportions)) = head {
             self.mouth.shape(measures, proportions, &mut self.of_head);
         }
-        bend_tongue(&self.of_head, pose, unit, &mut self.bent);
+        bend_tongue(&self.of_head, pose, size, &mut self.bent);
         let MouthOfHead { upper, lower, .. } = &self.of_head;
         let bodies = [(upper, &places.head), (lower, &places.mandible), (&self.bent, &places.mandible)];
         for ((plan, values), (control, place)) in self.parts.iter_mut().zip(bodies) {

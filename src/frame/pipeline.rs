@@ -409,9 +409,10 @@ impl Pipeline {
             part.shape(&self.rig, values, &self.pose, &mut self.deformed);
         }
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
-            let unit = self.rig.of_head(values, &mut self.deformed).unit;
+            let of_head = self.rig.of_head(values, &mut self.deformed);
+            let size = (of_head.unit, of_head.front);
             let pose = self.rig.posing().possible(&self.pose);
-            inside.shape(head, &pose, &places, unit);
+            inside.shape(head, &pose, &places, size);
         }
     }
 

@@ -43,14 +43,18 @@ impl WhiskerParts {
         let mut control = vec![Vec3::ZERO; rig.mesh().n_vertices()];
         half.unfold(&base, &mut control);
         let (skin, _) = evaluate_once(plan, &control);
-        let left = follicles.iter().map(|f| anchor(rig, plan, &skin, &control, f));
-        // The faces of the right half follow those of the left; two of their corners have changed places.
-        let right = follicles.iter().map(|f| {
-            let [u, v, w] = f.weights;
-            let image = Follicle { face: f.face + half.faces.len() as u32, weights: [u, w, v], ..*f };
-            anchor(rig, plan, &skin, &control, &image)
+        let left: Vec<Anchor> = follicles.iter().map(|f| anchor(rig, plan, &skin, &control, f)).collect();
+        // The right ones stand on the mirror images of the left ones' vertices, which the base head has.
+        let image = |v: u32| {
+            let p = skin[v as usize];
+            let far = |w: &usize| skin[*w].distance_squared(vec3(-p.x, p.y, p.z));
+            (0..skin.len()).min_by(|a, b| far(a).total_cmp(&far(b))).map_or(v, |w| w as u32)
+        };
+        let right = left.iter().map(|&Anchor { corners: [a, b, c], weights }| Anchor {
+            corners: [a, c, b].map(image),
+            weights: vec3(weights.x, weights.z, weights.y),
         });
-        let anchors = left.chain(right).collect();
+        let anchors = left.iter().copied().chain(right).collect();
         let values = Values::new(topology(2 * follicles.len()));
         Ok(Self { follicles, anchors, whiskers: Vec::new(), values })
     }

@@ -317,7 +317,7 @@ impl UnitTable {
 
     /// What units drive that have been resolved, not yet inside the limits: the sum of their drives, of muscles and some
     /// channels the largest.
-    pub(super) fn drive(&self, resolved: &Activation) -> Pose {
+    pub fn drive(&self, resolved: &Activation) -> Pose {
         // Of wishes in one direction the largest may count, but two directions always work against each other.
         let (mut pose, mut against) = (Pose::default(), Pose::default());
         for (number, unit) in self.units.iter().enumerate() {

@@ -11,6 +11,8 @@ use glam::{Mat3, Vec3, vec3};
 const FREE: [f32; 2] = [0.25, 0.45];
 /// Over how much of its way the part that leaves the mouth bends, millimetres before and behind the incisors.
 const BEND: [f32; 2] = [4.0, 30.0];
+/// The same of the nose's tip where it bends up, before the upper lip.
+const UP: [f32; 2] = [-8.0, 12.0];
 /// Part of the length from which the tip curls.
 const CURLS: f32 = 0.62;
 /// How much wider a wide tongue is.
@@ -19,8 +21,8 @@ const WIDER: f32 = 0.40;
 const OVER: f32 = 1.5;
 
 /// Moves the tongue's control positions; `mouth`: at rest, `unit`: metres of a millimetre of the head with a skull of 200
-/// mm; `out`: as long as `mouth.tongue`.
-pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Vec3>) {
+/// mm, `front`: how far in front its skin reaches, metres; `out`: as long as `mouth.tongue`.
+pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), out: &mut Vec<Vec3>) {
     out.clear();
     out.extend_from_slice(&mouth.tongue);
     let [far, lift, curl, side, wide] =
@@ -45,13 +47,14 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
     // Where the incisors are on the way, which is as long as the tongue at rest.
     let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
     // Up it goes before the upper lip, down over the lower one.
-    let from = if lift > 0.0 { length + BEND[0] * unit } else { from };
+    let lips = length + (front - mouth.lower_front.z).max(0.0);
+    let [from, to] = if lift > 0.0 { UP.map(|mm| lips + mm * unit) } else { [from, to] };
     let is_out = smooth(0.0, 12.0, far);
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
     let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
     // Before its tip begins to be round.
     let narrow = (0..SECTIONS).filter(|&i| along[i] < 0.8).map(half_width).last().unwrap_or(widest);
-    let front = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
+    let incisor = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
     let (mut at, mut way) = (middle(0), 0.0);
     for i in 0..SECTIONS {
         let s = along[i];
@@ -73,7 +76,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, unit: f32, out: &mut Vec<Ve
         let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
         // It lies on the incisors where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
-        let lies = (front.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
+        let lies = (incisor.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
         let lifted = at + vec3(0.0, lies, 0.0);
         let place = |p: Vec3| {
             let d = p - middle(i);

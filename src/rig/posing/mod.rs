@@ -71,6 +71,8 @@ pub struct OfHead {
     pub hinge: Vec3,
     /// See `hinge`.
     pub pivot: Vec3,
+    /// How far in front the skin reaches, metres.
+    pub front: f32,
     /// Landmarks of the left bone, in their list's order, metres.
     bone: Vec<Vec3>,
     surface: Option<(Proportions, Implicit)>,
@@ -147,6 +149,16 @@ impl PosePlan {
         out
     }
 
+    /// The least of these: how much of the head's turn the neck's cut end makes.
+    pub fn neck_end_weight(&self) -> f32 {
+        neck::END
+    }
+
+    /// Where the neck's cut end is in a pose, from the head at rest; `head`: [`super::Rig::of_head`].
+    pub fn neck_end(&self, head: &OfHead, pose: &Pose) -> Rigid {
+        neck::turned(head.pivot, head.unit, &self.limits.clamped(pose), neck::END)
+    }
+
     /// How muscles are seen.
     pub fn fibres(&self) -> &Fibres {
         &self.fibres
@@ -171,6 +183,7 @@ impl PosePlan {
         out.unit = 0.001 * ops::sqrt(skull / 0.2 * (2.0 * bone.zygion.x / 0.105));
         out.hinge = bone.condyle.with_x(0.0);
         out.pivot = bone.occipital_condyle.with_x(0.0);
+        out.front = out.rest.iter().map(|p| p.z).fold(f32::MIN, f32::max);
         out.axes = deform::orbit_axes(shape).map(|axis| shape.direction(axis));
         out.closers = [
             [0.5 * (bone.zygion + bone.arch_root), 0.5 * (bone.masseteric + bone.gonion)],

@@ -7,7 +7,7 @@ use crate::rig::handles::{Handles, NONE};
 use glam::{EulerRot, Mat3, Vec3, vec3};
 
 /// How much of the head's turn the cut end of the neck makes: it lies in the middle of the vertebrae that share it.
-const END: f32 = 0.45;
+pub(super) const END: f32 = 0.45;
 /// How much of the head's way forward or back a part of the neck makes that turns with nothing.
 const GLIDES: f32 = 0.75;
 const ROUNDS: usize = 60;
