@@ -51,7 +51,13 @@ impl MouthParts {
 
     /// `head`: measures and proportions, where they changed; `size`: metres of a millimetre of the head with a skull of 200
     /// mm, and how far in front its skin reaches.
-    pub(super) fn shape(&mut self, head: Option<(&Measures, &Proportions)>, pose: &Pose, places: &Places, unit: f32) {
+    pub(super) fn shape(
+        &mut self,
+        head: Option<(&Measures, &Proportions)>,
+        pose: &Pose,
+        places: &Places,
+        size: (f32, f32),
+    ) {
         if let Some((measures, proportions)) = head {
             self.mouth.shape(measures, proportions, &mut self.of_head);
         }

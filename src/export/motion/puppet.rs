@@ -21,7 +21,8 @@ pub(super) struct Puppet {
     values: Vec<f32>,
     head: Deformed,
     mouth: MouthOfHead,
-    unit: f32,
+    /// Metres of a millimetre of the head with a skull of 200 mm, and how far in front its skin reaches.
+    size: (f32, f32),
     /// Control positions of skin and tongue at rest, one after the other, and their weights.
     rest: Vec<Vec3>,
     weights: Vec<Dense>,
@@ -43,7 +44,7 @@ impl Puppet {
         let mut head = Deformed::default();
         rig.deform(values, deform::ROUNDS, &mut head);
         let of_head = rig.of_head(values, &mut head);
-        let (unit, hinge, pivot) = (of_head.unit, of_head.hinge, of_head.pivot);
+        let (size, hinge, pivot) = ((of_head.unit, of_head.front), of_head.hinge, of_head.pivot);
         let mut mouth = MouthOfHead::default();
         Mouth::default().shape(&rig.measures(values), &rig.proportions(values), &mut mouth);
 
@@ -75,7 +76,7 @@ impl Puppet {
         let rest = [&head.control[..], &mouth.tongue].concat();
         let (eyes, posed) = (head.eyes, rest.clone());
         let values = values.to_vec();
-        Self { rig, values, head, mouth, unit, rest, weights, eyes, joints, ears, tongue, posed, bent: Vec::new() }
+        Self { rig, values, head, mouth, size, rest, weights, eyes, joints, ears, tongue, posed, bent: Vec::new() }
     }
 
     pub fn rig(&self) -> &Rig {
@@ -96,7 +97,7 @@ impl Puppet {
     pub fn take(&mut self, pose: &Pose) -> Bend {
         let Self { rig, values, head, posed, bent, rest, .. } = self;
         rig.pose(values, pose, head);
-        bend_tongue(&self.mouth, &rig.posing().limits().clamped(pose), self.unit, bent);
+        bend_tongue(&self.mouth, &rig.posing().possible(pose), self.size, bent);
         let places = head.places;
         let n = head.control.len();
         posed[..n].copy_from_slice(&head.control);
