@@ -237,7 +237,7 @@ impl Rig {
         self.of_head(values, out);
         let Deformed { half, posed, of_head, control, eyes, places, ahead, .. } = out;
         let Some(head) = of_head else { return };
-        (*eyes, *places) = self.posing.apply(&self.plan, head, half, ahead, pose, posed, control);
+        (*eyes, *places) = self.posing.apply(&self.plan, head, (half, ahead), pose, (posed, control));
     }
 
     /// What poses and muscles need of a head that [`Rig::deform`] made from these values; made when it is first asked for.

@@ -53,7 +53,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
     let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
     // Before its tip begins to be round.
-    let narrow = (0..SECTIONS).filter(|&i| along[i] < 0.8).map(half_width).last().unwrap_or(widest);
+    let narrow = (0..SECTIONS).rev().find(|&i| along[i] < 0.8).map_or(widest, half_width);
     let incisor = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
     let (mut at, mut way) = (middle(0), 0.0);
     for i in 0..SECTIONS {

@@ -71,7 +71,7 @@ impl Fibres {
     pub fn along(vertex: usize) -> (f32, bool) {
         match vertex.checked_sub(SECTIONS * CORNERS) {
             Some(end) => (end as f32, false),
-            None => ((vertex / CORNERS) as f32 / (SECTIONS - 1) as f32, vertex % 2 == 0),
+            None => ((vertex / CORNERS) as f32 / (SECTIONS - 1) as f32, vertex.is_multiple_of(2)),
         }
     }
 

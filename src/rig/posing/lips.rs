@@ -29,7 +29,7 @@ impl Lips {
             let from: Vec<(u32, f32)> = (3..10).map(|i| (u32::from(skin[i]), 0.0)).collect();
             let ways = neighbours.ways(base, &from, REACH);
             let mut out = Vec::new();
-            for i in 3..11 {
+            for (i, lining) in lining.iter().enumerate().skip(3) {
                 // It tapers to the corner of the mouth.
                 let taper = smoothstep(10.5, 7.0, i as f32);
                 let mut add = |v: u16, weight: f32| {
@@ -43,8 +43,8 @@ impl Lips {
                     .filter(|&v| v != NONE)
                     .for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
                 // The lining goes with the margin, so that it never hangs below it.
-                add(lining[i][1], 1.0);
-                add(lining[i][2], 0.9);
+                add(lining[1], 1.0);
+                add(lining[2], 0.9);
             }
             out
         };

@@ -189,7 +189,7 @@ impl PosePlan {
             [0.5 * (bone.zygion + bone.arch_root), 0.5 * (bone.masseteric + bone.gonion)],
             [(bone.vertex + bone.frontostenion + bone.asterion) / 3.0, bone.coronion],
         ];
-        self.muscles.of_head(of_half, &self.neighbours, &out.rest, &out.normals, &bone, out.unit, &mut out.pulls);
+        self.muscles.of_head(of_half, &self.neighbours, (&out.rest, &out.normals), &bone, out.unit, &mut out.pulls);
         out.bone.clear();
         out.bone.extend(bone.list());
         out.surface = Some((*shape, Implicit::new(shape)));
@@ -220,11 +220,9 @@ impl PosePlan {
         &self,
         plan: &DeformPlan,
         head: &OfHead,
-        half: &[Vec3],
-        eye: &Eye,
+        (half, eye): (&[Vec3], &Eye),
         pose: &Pose,
-        scratch: &mut Vec<Vec3>,
-        control: &mut [Vec3],
+        (scratch, control): (&mut Vec<Vec3>, &mut [Vec3]),
     ) -> ([Eye; 2], Places) {
         let pose = &self.possible(pose);
         let mirror = self.muscles.mirror();
@@ -232,7 +230,7 @@ impl PosePlan {
         self.muscles.contract(&head.pulls, |m| self.contraction(pose, &bulges, m), control);
         self.lips.part(pose, head.unit, mirror, &head.normals, control);
         let eyes = [0, 1].map(|side| gazing(eye, pose, side));
-        self.lids(plan, head, half, (eye, &eyes), pose, scratch, control);
+        self.lids(plan, head, half, (eye, &eyes), pose, (scratch, control));
         let jaw = jaw::mandible(head.hinge, head.unit, pose);
         if !jaw.is_rest() {
             for (p, &w) in control.iter_mut().zip(&self.jaw).filter(|(_, w)| **w > 0.0) {
@@ -314,8 +312,7 @@ impl PosePlan {
         half: &[Vec3],
         (ahead, eyes): (&Eye, &[Eye; 2]),
         pose: &Pose,
-        scratch: &mut Vec<Vec3>,
-        control: &mut [Vec3],
+        (scratch, control): (&mut Vec<Vec3>, &mut [Vec3]),
     ) {
         let [closed, raised, lift] =
             [Channel::LidClosed, Channel::LidRaised, Channel::GazeLift].map(|c| pose.channel(c));
