@@ -29,7 +29,7 @@ bake: ## rebuild the baked assets
 	$(CARGO) run --release --locked -- bake
 
 heads: ## redraw docs/heads.png: every breed in four views, at one scale
-	$(CARGO) run --release --locked -- sheet --breeds all --level 3 --columns 3 --hair off --size 1440x2880 -o docs/heads.png
+	$(CARGO) run --release --locked -- sheet --breeds all --level 3 --columns 3 --hair off --size 960x1920 -o docs/heads.png
 
 gallery: ## redraw docs/gallery.png: every breed as clay, as skin and in its coat
 	$(CARGO) run --release --locked -- sheet --breeds all --views portrait --dress clay,skin,coat --fit --columns 4 --size 1320x1860 -o docs/gallery.png

@@ -226,7 +226,7 @@ fn units_text(library: &Library) -> String {
          `londra render --unit AU101=0.7 --unit EAD103L=1 -o dog.png` sets units, `--facs 101+12B+EAD103` reads the notation: codes joined by `+`, a side as `L` or `R`, an intensity as `A` (0.2) to `E` (1).\n\
          `londra list units` prints them.\n\n\
          The pictures show a German shepherd from the front and at three quarters with the unit at 0, 0.5 and 1, arrows from where landmarks were to where they are.\n\
-         `londra atlas --units --breed german_shepherd --size 84x84 -o docs/dogfacs` draws them.\n\n",
+         `londra atlas --units --breed german_shepherd --size 56x56 -o docs/dogfacs` draws them.\n\n",
     );
     let _ = writeln!(
         out,
@@ -250,7 +250,7 @@ fn units_text(library: &Library) -> String {
         }
         let _ = writeln!(out, "\n### {}: {}\n", unit.label, unit.name);
         if !unit.drives.is_empty() {
-            let _ = writeln!(out, "![{} at 0, 0.5 and 1]({}/{}.png)\n", unit.label, "dogfacs", unit.id);
+            let _ = writeln!(out, "![{} at 0, 0.5 and 1](dogfacs/{}.png)\n", unit.label, unit.id);
         }
         let _ = writeln!(
             out,
