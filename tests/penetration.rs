@@ -11,7 +11,7 @@ mod settings;
 mod solid;
 
 use glam::Vec3;
-use londra::anatomy::{Breed, Region, library};
+use londra::anatomy::{Breed, Region};
 use londra::frame::{Frame, Layers, Pipeline};
 use londra::motion::{Activation, Group, Library, Pose, Sides};
 use londra::rig::bone::teeth::{self, TOOTH_VERTICES};
@@ -59,6 +59,7 @@ struct Subject {
 
 struct World {
     rig: Arc<Rig>,
+    breeds: Vec<Breed>,
     library: Library,
     pipeline: Pipeline,
     /// Vertices of the refined skin: haired skin, lips, ears.
@@ -76,8 +77,7 @@ fn part<'a>(frame: &'a Frame<'a>, name: &str) -> &'a [Vec3] {
 
 impl World {
     fn new() -> Self {
-        let table = Arc::new(londra::anatomy::ParamTable::embedded().expect("the table"));
-        let rig = Arc::new(Rig::embedded(&table).expect("the rig"));
+        let settings::World { rig, breeds, .. } = settings::World::embedded();
         let mut pipeline = Pipeline::new(rig.clone(), LEVEL).expect("a level");
         pipeline.set_layers(Layers::parse("skin,eyes,teeth,tongue,bone").expect("layers")).expect("parts");
         // Regions of refined vertices: of the control face that each lies on.
@@ -116,13 +116,13 @@ impl World {
             teeth: [true, false].map(Bones::tooth_indices),
             library: Library::embedded().expect("the tables"),
             rig,
+            breeds,
             pipeline,
         }
     }
 
     fn subject(&mut self, id: &'static str) -> Subject {
-        let table = londra::anatomy::ParamTable::embedded().expect("the table");
-        let breed = library::breed(&table, id).expect(id);
+        let breed = self.breeds.iter().find(|b| b.id == id).cloned().expect(id);
         let (measures, shape) = (self.rig.measures(&breed.values), self.rig.proportions(&breed.values));
         let t = targets(&measures, &shape);
         let bones = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &t, teeth::unit(&t)));
@@ -166,9 +166,7 @@ impl World {
                     if p.cmpge(low).all() && p.cmple(high).all() {
                         let per = indices.len() / (at.len() / TOOTH_VERTICES);
                         let body = Solid { at, indices: &indices[k * per..(k + 1) * per] };
-                        if body.holds(p) {
-                            deepest = deepest.max(body.distance(p));
-                        }
+                        deepest = deepest.max(body.depth(&[p]));
                     }
                 }
             }
