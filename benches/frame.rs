@@ -11,6 +11,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use glam::Vec3;
 use londra::anatomy::{Breed, ParamTable, library};
 use londra::frame::{Frame, Pipeline};
+use londra::motion::{Activation, Library};
 use londra::rig::{Deformed, Rig, deform::ROUNDS};
 use londra::subdiv::Evaluator;
 
@@ -92,6 +93,7 @@ fn benches(c: &mut Criterion) {
         black_box(evaluator.evaluate(&plan, black_box(&deformed.control)));
     });
     let copying = shortest(|| copy(&pipeline.frame(), black_box(&mut copied)));
+    posing(&rig, &two[0], &mut deformed, whole.saturating_sub(shape));
     eprintln!(
         "frame at level {LEVEL}: {:.2} ms, of it deform {:.2}, positions and normals {:.2}; {:.1} times a copy of its output ({:.2} ms)",
         1e3 * whole.as_secs_f64(),
@@ -100,6 +102,29 @@ fn benches(c: &mut Criterion) {
         whole.as_secs_f64() / copying.as_secs_f64(),
         1e3 * copying.as_secs_f64()
     );
+}
+
+/// What a pose costs beside a copy of the control mesh, and beside the rest of a frame whose values stay.
+fn posing(rig: &Rig, breed: &Breed, head: &mut Deformed, rest: Duration) {
+    let library = Library::embedded().expect("the embedded tables are tested");
+    rig.deform(&breed.values, ROUNDS, head);
+    let mut copied = head.control.clone();
+    let copying = shortest(|| black_box(&mut copied).copy_from_slice(black_box(&head.control)));
+    for what in ["AU12", "AU101+AU145", "EAD103", "AU27", "AU12+AU109_110+AU27+AU143+EAD103+AU101+AD19+AD51"] {
+        let mut asked = Activation::default();
+        for word in what.split('+') {
+            let (unit, side) = library.units.find(word).expect("a unit");
+            asked.set(unit, side, 1.0);
+        }
+        let own = shortest(|| rig.pose(&breed.values, &library.pose_of(black_box(&asked)), head));
+        eprintln!(
+            "pose {what}: {:.0} us, {:.0} times a copy of the control mesh ({:.2} us), {:.1} % of the rest of a frame",
+            1e6 * own.as_secs_f64(),
+            own.as_secs_f64() / copying.as_secs_f64(),
+            1e6 * copying.as_secs_f64(),
+            100.0 * own.as_secs_f64() / rest.as_secs_f64()
+        );
+    }
 }
 
 criterion_group!(frame, benches);

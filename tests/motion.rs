@@ -1,4 +1,5 @@
 //! What the head does: tables, rules, notation, expressions, clips, life. No mesh is needed for any of it.
+#![cfg(feature = "head")]
 
 use londra::math::fnv::Fnv64;
 use londra::math::rng::Rng;
