@@ -350,7 +350,7 @@ fn an_animation_plays_other_in_a_client() {
             let (name, Apart { most, part, mean, whiskers, .. }) = (&clip.name, worst);
             println!("{id:<16} {name:<24} {most:7.3} mm, {mean:7.4} in the mean, whiskers {whiskers:6.2}  {part}");
             // Skin that keeps off the turning mandible, and a tongue of four joints, are no sums of shapes.
-            if most > 6.5 || mean > 0.3 || whiskers > 15.0 {
+            if most > 5.5 || mean > 0.3 || whiskers > 15.0 {
                 faults.push(format!("{id} {name}"));
             }
         }

@@ -38,8 +38,8 @@ const BOUNDS: [(&str, f32); 7] = [
     ("skin in skull", 1.2),
     ("skin in mandible", 3.2),
     ("lids in eyeball", 0.5),
-    ("tongue in bone", 4.6),
-    ("tongue in teeth", 3.2),
+    ("tongue in bone", 1.3),
+    ("tongue in teeth", 1.6),
     ("lips in teeth", 0.5),
     ("ears in head", 0.5),
 ];

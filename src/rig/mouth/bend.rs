@@ -34,7 +34,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
     let gape = pose.median(Channel::JawGape);
     let rest = &mouth.tongue;
     let middle = |i: usize| 0.5 * (rest[i * AROUND] + rest[i * AROUND + AROUND - 1]).with_x(0.0);
-    let smooth = super::tongue::smoothstep;
+    let smooth = ops::smoothstep;
     let steps: [Vec3; SECTIONS] = std::array::from_fn(|i| if i == 0 { Vec3::ZERO } else { middle(i) - middle(i - 1) });
     let length: f32 = steps.iter().map(|d| d.length()).sum::<f32>().max(1e-5);
     let mut along = [0.0; SECTIONS];

@@ -5,7 +5,7 @@
 
 use super::arch::Arch;
 use super::{HalfBody, Tissue, off_bone};
-use crate::math::ops;
+use crate::math::ops::{self, smoothstep};
 use crate::rig::bone::teeth::{self, TOOTH_VERTICES};
 use crate::rig::bone::{BoneField, Targets};
 use glam::{Vec3, vec3};
@@ -192,10 +192,4 @@ pub(super) fn place(
     let (first, last) = (sections[0], sections[SECTIONS - 1]);
     out.push(vec3(0.0, first.middle - 0.3 * first.below, back - 0.02 * length));
     out.push(vec3(0.0, last.middle, last.z + 0.01 * length));
-}
-
-/// Rises from `a` to `b`, whichever is the larger.
-pub(super) fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
-    let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }

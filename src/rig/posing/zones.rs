@@ -1,6 +1,7 @@
 //! Weights on the control mesh that no measure changes: how far along the skin a vertex lies from others, and smooth
 //! passages between vertices that are held.
 
+pub(super) use crate::math::ops::smoothstep;
 use crate::mesh::{DedgeMesh, VertexId};
 use glam::Vec3;
 use std::cmp::Reverse;
@@ -86,10 +87,4 @@ impl Neighbours {
 pub(super) fn fade(distance: f32, reach: f32) -> f32 {
     let t = 1.0 - (distance / reach.max(1e-6)).min(1.0) * (distance / reach.max(1e-6)).min(1.0);
     t * t
-}
-
-/// Rises from 0 at `a` to 1 at `b`, level at both.
-pub(super) fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
-    let t = ((x - a) / (b - a)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
