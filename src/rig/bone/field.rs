@@ -395,17 +395,18 @@ fn skull(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
 fn mandible(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
     let mm = vec3;
     let mut b = Bodies(bodies);
+    // The rim that holds the teeth: no wider than their necks, so that a gum stands upright on it.
     let upper = [
-        (t.infradentale + mm(4.0, -4.5, -3.5), 4.0),
-        (t.lower_canine + mm(-2.8, -4.6, -1.0), 3.7),
-        (t.lower_canine.lerp(t.lower_carnassial, 0.4) + mm(-2.2, -4.2, 0.0), 3.3),
-        (t.lower_carnassial + mm(-1.0, -4.5, 0.0), 3.8),
-        (t.lower_last + mm(0.0, -5.0, 0.0), 4.4),
+        (t.infradentale + mm(3.4, -4.5, -4.4), 3.4),
+        (t.lower_canine + mm(-8.0, -4.8, -1.0), 3.2),
+        (t.lower_canine.lerp(t.lower_carnassial, 0.4) + mm(-5.4, -4.2, 0.0), 2.9),
+        (t.lower_carnassial + mm(-5.2, -4.5, 0.0), 3.5),
+        (t.lower_last + mm(-3.4, -5.0, 0.0), 4.0),
     ];
     let lower = [
         (t.gnathion + mm(3.5, 5.0, -1.0), 4.6),
-        (t.symphysis + mm(8.0, 5.0, 2.0), 4.8),
-        (t.body + mm(0.0, 4.6, 0.0), 4.6),
+        (t.symphysis + mm(6.5, 5.0, 2.0), 4.6),
+        (t.body + mm(-0.6, 4.4, 0.0), 4.4),
         (t.body.lerp(t.gonion, 0.5) + mm(0.0, 5.0, 0.0), 4.6),
         (t.gonion + mm(-0.5, 6.0, 7.0), 4.0),
     ];
@@ -417,11 +418,11 @@ fn mandible(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
             (t.gnathion + mm(0.0, 5.0, -3.0), 5.0),
             (t.symphysis + mm(0.0, 5.5, 4.0), 5.5),
         ],
-        8.0,
+        6.0,
     );
     // What lies between the two rims.
-    let middle: [(Vec3, f32); 5] = std::array::from_fn(|i| (0.5 * (upper[i].0 + lower[i].0), 4.4));
-    b.bar(&middle, 8.0);
+    let middle: [(Vec3, f32); 5] = std::array::from_fn(|i| (0.5 * (upper[i].0 + lower[i].0), 3.8));
+    b.bar(&middle, 6.0);
     // Ramus: a plate up to the coronoid process, hollow outside; condyle; angular process.
     let root = t.lower_last.lerp(t.body.lerp(t.gonion, 0.5), 0.5);
     b.plate(

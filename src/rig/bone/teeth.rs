@@ -86,17 +86,30 @@ pub(super) fn indices(first: u32, mirrored: bool, out: &mut Vec<u32>) {
     (0..n).for_each(|s| add([last + s, last + (s + 1) % n, last + n]));
 }
 
+/// Height of a cusp at `at` whose edges run down over `reach` to both sides; its tip is worn round.
+fn blade(u: f32, at: f32, reach: f32) -> f32 {
+    let t = (u - at).abs() / reach;
+    (1.06 - ops::sqrt(0.015 + t * t)).max(0.0)
+}
+
+/// Of a cusp's height, at a place across the crown: full at the edge, rounded off to the neck.
+fn side(v: f32) -> f32 {
+    1.0 - v * v * (0.55 + 0.45 * v * v)
+}
+
 /// Height of a crown as a part of it, at a place in its outline: `u` along the arch, forwards, `v` across.
 fn crown(kind: ToothKind, u: f32, v: f32) -> f32 {
     let r = (u * u + v * v).sqrt().min(1.0);
-    let bump = |at: f32, width: f32| ops::exp(-((u - at) / width) * ((u - at) / width));
     let rim = 1.0 - r * r * r * r;
+    // A blade rises steeply from its neck.
+    let neck = rim * (2.0 - rim);
     match kind {
         Incisor => rim * (1.0 - 0.25 * u * u) * (1.0 - 0.35 * r),
         Canine => ops::powf(1.0 - r, 0.85),
-        Premolar => rim * (0.95 * bump(0.05, 0.34) + 0.34 * bump(-0.7, 0.2) + 0.14) * (1.0 - 0.5 * v.abs()),
+        // Blades: a cusp whose edges run down to both ends of the crown, and a lower one behind it.
+        Premolar => neck * (blade(u, 0.08, 1.0) * 0.96).max(blade(u, -0.62, 0.5) * 0.5) * side(v),
         Carnassial => {
-            rim * (bump(0.12, 0.28) + 0.66 * bump(-0.55, 0.26) + 0.4 * bump(0.75, 0.18)) * (1.0 - 0.45 * v.abs())
+            neck * blade(u, 0.1, 0.72).max(blade(u, -0.55, 0.62) * 0.74).max(blade(u, 0.72, 0.45) * 0.5) * side(v)
         }
         Molar => rim * (0.7 + 0.25 * ops::cos(4.8 * u) * (1.0 - v * 0.6)),
     }
@@ -205,7 +218,8 @@ pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
         let size = vec3(size.x * fit, size.y * fit, size.z);
         let inwards = match tooth.kind {
             Incisor => vec3(0.0, 0.0, -0.5 * size.y),
-            Canine => -across * (0.85 * size.y),
+            // The lower one stands far enough inside to pass in front of the upper one.
+            Canine => -across * (0.85 * size.y + if upper { 0.0 } else { 1.5 * unit }),
             _ => -across * (0.55 * size.y + 2.0 * unit),
         };
         let root = at + inwards - up * (SUNK * unit);

@@ -11,8 +11,9 @@ pub(super) const PARTS: [usize; 3] = [9, 41, 8];
 /// Number of ribs.
 pub(super) const RIBS: usize = PARTS[0] + PARTS[1] + PARTS[2] + 1;
 
-/// How far bone goes beyond the landmarks outwards, canonical millimetres: upper jaw, lower jaw.
-const BONE: [f32; 2] = [1.9, 4.2];
+/// How far bone goes outwards, canonical millimetres: beyond the landmarks of the upper jaw, beyond the necks of the lower
+/// teeth.
+const BONE: [f32; 2] = [1.9, 1.0];
 
 /// One place of the arch. Lengths in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,8 +57,11 @@ impl Arch {
         // A place for each tooth: where, half width, bone, margin.
         let mut places: Vec<(Vec3, [f32; 3])> = Vec::with_capacity(seats.len() + 2);
         for seat in &seats {
-            let margin = (0.6 * seat.size.z).clamp((SUNK + 0.3) * unit, (SUNK + 0.9) * unit);
-            places.push((seat.root, [0.5 * seat.size.y, seat.inset + BONE[usize::from(!upper)] * unit, margin]));
+            // Where bone is higher the gum goes over it (`gums`).
+            let margin = (0.5 * seat.size.z).clamp((SUNK - 1.0) * unit, (SUNK - 0.2) * unit);
+            let half = 0.5 * seat.size.y;
+            let bone = if upper { seat.inset + BONE[0] * unit } else { half + BONE[1] * unit };
+            places.push((seat.root, [half, bone, margin]));
         }
         let (first, last) = (places[0], places[places.len() - 1]);
         let front = vec3(0.0, first.0.y, first.0.z + 0.3 * (first.0.z - places[1].0.z).max(0.0));

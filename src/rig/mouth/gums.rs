@@ -20,11 +20,18 @@ const RIDGE: f32 = 0.9;
 
 /// How far the outer wall reaches down from the necks, upper and lower, canonical millimetres: to where the lips begin, so
 /// that nobody looks under it when they part.
-const SKIRT: [f32; 2] = [9.0, 15.0];
+const SKIRT: [f32; 2] = [9.0, 10.0];
+/// How far the lower wall reaches down on its way to the chin's skin: below the lining of the lip.
+const TO_CHIN: f32 = 0.75;
+/// Longest such way, canonical millimetres, and in how many steps it is gone.
+const CHIN: (f32, usize) = (60.0, 24);
 /// Gum over bone at least, canonical millimetres.
 const COVER: f32 = 1.2;
 /// Skin over gum at least, head units.
 pub(super) const LEAST_TISSUE: f32 = 0.1;
+
+/// How far the sulcus, the outer wall and the rest go off the bone at most, canonical millimetres: gum ends on the bone.
+const FARTHEST: [f32; 3] = [1.0, 2.0, 5.0];
 
 /// Columns over the gum, from outside: sulcus, outer wall, shoulder, margin, between the teeth, margin, foot.
 const GUM: usize = 7;
@@ -46,6 +53,15 @@ pub enum Tissue {
     Tongue,
     /// Its smooth underside.
     TongueUnder,
+}
+
+/// Parts of a gum that lie under the skin of the lips.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wall {
+    /// From the sulcus up.
+    Outer,
+    /// Over the necks of the teeth.
+    Shoulder,
 }
 
 fn seen(rib: usize, column: usize) -> usize {
@@ -107,13 +123,29 @@ fn ridge(rib: usize) -> f32 {
     }
 }
 
-/// Positions of the half (metres) over that bone; `under` keeps a point under the skin.
-pub(super) fn place(arch: &Arch, unit: f32, bone: &BoneField, under: impl Fn(Vec3) -> Vec3, out: &mut Vec<Vec3>) {
+/// Positions of the half (metres) over that bone; `under` keeps a point under the skin, the wall deeper than the shoulder,
+/// and `inside` says whether one is.
+pub(super) fn place(
+    arch: &Arch,
+    unit: f32,
+    bone: &BoneField,
+    under: impl Fn(Vec3, Wall) -> Vec3,
+    inside: impl Fn(Vec3) -> bool,
+    out: &mut Vec<Vec3>,
+) {
     out.clear();
     out.resize(RIBS * (2 * COLUMNS - 1), Vec3::ZERO);
     let height = |h: f32| vec3(0.0, arch.up * h, 0.0);
     for k in 0..RIBS {
         plain(arch, k, unit).into_iter().enumerate().for_each(|(c, p)| out[seen(k, c)] = p);
+        if arch.up > 0.0 {
+            // A lip may hang far below its jaw.
+            let from = out[seen(k, 1)];
+            let step = CHIN.0 / CHIN.1 as f32;
+            let far = (1..=CHIN.1).rfind(|&i| inside(from - height(step * unit * i as f32))).unwrap_or(0);
+            let sulcus = &mut out[seen(k, 0)];
+            sulcus.y = sulcus.y.min(from.y - TO_CHIN * step * far as f32 * unit);
+        }
     }
     // Off the bone: outwards at the sides, towards the teeth's tips elsewhere. Neighbours go along, so that it stays even.
     for c in (0..COLUMNS).filter(|&c| c != 4) {
@@ -122,8 +154,12 @@ pub(super) fn place(arch: &Arch, unit: f32, bone: &BoneField, under: impl Fn(Vec
             2 => (rib.outwards + height(1.0)).normalize(),
             _ => height(1.0),
         };
-        let mut moves: Vec<f32> =
-            arch.ribs.iter().enumerate().map(|(k, r)| clear(out[seen(k, c)], way(r), bone, unit)).collect();
+        let mut moves: Vec<f32> = arch
+            .ribs
+            .iter()
+            .enumerate()
+            .map(|(k, r)| clear(out[seen(k, c)], way(r), bone, unit).min(FARTHEST[c.min(2)] * unit))
+            .collect();
         for _ in 0..3 {
             let before = moves.clone();
             for k in 1..RIBS - 1 {
@@ -137,7 +173,8 @@ pub(super) fn place(arch: &Arch, unit: f32, bone: &BoneField, under: impl Fn(Vec
     for k in 0..RIBS {
         // Never past the skin of the lips.
         for c in 0..4 {
-            out[seen(k, c)] = under(out[seen(k, c)]);
+            let wall = if c < 2 { Wall::Outer } else { Wall::Shoulder };
+            out[seen(k, c)] = under(out[seen(k, c)], wall);
         }
         if arch.up < 0.0 {
             for c in 0..VAULT {
@@ -167,7 +204,7 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let height = |h: f32| vec3(0.0, arch.up * h, 0.0);
     let rib = arch.ribs[k];
     let Rib { neck, middle, outwards, half, bone, margin } = rib;
-    let wall = (bone + 1.4 * unit).max(half + 1.6 * unit);
+    let wall = (bone + if arch.up > 0.0 { 0.8 } else { 1.4 } * unit).max(half + 1.6 * unit);
     let inner = (neck - middle).length();
     let along = k as f32 / (RIBS - 1) as f32;
     // Behind the corner of the mouth cheeks lie close.
@@ -180,7 +217,7 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let inwards = (middle - neck).normalize_or(-outwards);
     let mut out = [neck; COLUMNS];
     let gum = [
-        outwards * wall - height(skirt * unit),
+        outwards * (if arch.up > 0.0 { 0.85 } else { 1.0 } * wall) - height(skirt * unit),
         // Close to the necks above, or the teeth of the other jaw would be behind it.
         outwards * (0.25 * edge + 0.75 * wall) - height(3.5 * unit),
         outwards * (0.80 * edge + 0.20 * wall) + height(0.6 * margin),

@@ -11,6 +11,7 @@ mod tongue;
 
 pub use arch::Arch;
 pub use bend::bend_tongue;
+use gums::Wall;
 pub use gums::{N_RUGAE, Tissue};
 pub use tongue::TONGUE_TIP;
 
@@ -120,14 +121,18 @@ impl Mouth {
             *sections = tongue::sections(&self.tongue);
         }
         // The lower lip is thin, and bone under it is seen to lie under the whole head only: its gum may stand out a little
-        // of the lower head, or it would lie in the bone.
+        // of the lower head, or it would lie in the bone, but for its outer wall.
         let whole_head = (Layer::Whole, gums::LEAST_TISSUE);
         let bodies =
             [(&self.upper, upper, whole_head), (&self.lower, lower, (Layer::Lower, -3.0 * gums::LEAST_TISSUE))];
         for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&fields).zip(bodies) {
             let keep = |p: Vec3, layer, least| under_skin(p, proportions, (&skin, layer), least);
-            let under = |p: Vec3| keep(keep(p, Layer::Whole, gums::LEAST_TISSUE), layer, least);
-            gums::place(arch, unit, field, under, half);
+            let under = |p: Vec3, wall: Wall| {
+                let least = if wall == Wall::Outer { gums::LEAST_TISSUE } else { least };
+                keep(keep(p, Layer::Whole, gums::LEAST_TISSUE), layer, least)
+            };
+            let inside = |p: Vec3| skin.distance(proportions.proportional(p), layer) < 0.0;
+            gums::place(arch, unit, field, under, inside, half);
             body.unfold(half, whole);
         }
         let [above, below] = teeth;
