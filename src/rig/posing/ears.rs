@@ -18,6 +18,10 @@ const GLIDE: [f32; 2] = [0.7, 1.0];
 const RAMP: [f32; EAR_RINGS + 1] = [0.2, 0.55, 0.85, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
 /// Part of the turns of an ear that hangs, and of its leather behind the fold.
 const HANGING: [f32; 2] = [0.4, 0.35];
+/// How much narrower leather is that lies back: its edges close over the opening (Bremhorst et al. 2019 on the flattener).
+const NARROWED: f32 = 0.45;
+/// How far the edges come forwards for what they come together.
+const CURLED: f32 = 0.6;
 /// Between leather and head at least where the leather came nearer, head units.
 const CLEAR: f32 = 0.06;
 
@@ -48,6 +52,9 @@ struct Rest<'a> {
     base: Vec3,
     /// Along the ear at its base.
     up: Vec3,
+    /// Across its leather where that is broadest, and out of its opening.
+    across: Vec3,
+    opening: Vec3,
     /// How much it hangs, 0 to 1, and the ring of its fold.
     hangs: f32,
     fold: usize,
@@ -75,7 +82,12 @@ impl Ears {
         let hangs = smoothstep(0.0, 0.55, (base.y - middles[EAR_RINGS].y) / length);
         let fold = (1..=EAR_RINGS).max_by(|&a, &b| middles[a].y.total_cmp(&middles[b].y)).unwrap_or(1);
         let up = (middles[2] - base).normalize_or(Vec3::Y);
-        Rest { at, middles, base, up, hangs, fold }
+        let edges = self.rings.iter().zip(&middles).flat_map(|(ring, m)| ring.iter().map(|&v| at[v as usize] - *m));
+        let edge = edges.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or(Vec3::X);
+        let across = edge.normalize_or(Vec3::X);
+        let opening = across.cross(up).normalize_or_zero();
+        let opening = if opening.z < 0.0 { -opening } else { opening };
+        Rest { at, middles, base, up, across, opening, hangs, fold }
     }
 
     /// Moves both ears. `rest`: control positions at rest, of which the left half counts; `surface`: the head without its
@@ -115,7 +127,8 @@ impl Ears {
                     let way = ear.middles[k] - ear.middles[k - 1];
                     middle += 0.5 * (turned(k - 1) * way + turn * way);
                 }
-                let place = |v: u32, middle: Vec3| middle + turn * (ear.at[v as usize] - ear.middles[k]);
+                let closed = closing(&ear, &values, k, ring);
+                let place = |v: u32, middle: Vec3| middle + turn * closed(ear.at[v as usize] - ear.middles[k]);
                 if k >= 2 {
                     middle += off(shape, surface, &ear, ring, &|v| place(v, middle));
                 }
@@ -141,6 +154,18 @@ fn turns(ear: &Rest<'_>, &[.., turn, back, out, bend, sway]: &[f32; 8], ring: us
     Mat3::from_rotation_z(-of(out) - sway)
         * Mat3::from_rotation_x(-of(back) - bend)
         * Mat3::from_axis_angle(ear.up, of(turn))
+}
+
+/// How a ring of leather narrows as the ear lies back: a map of offsets from the ring's middle.
+fn closing(ear: &Rest<'_>, &[.., back, _, _, _]: &[f32; 8], k: usize, ring: &[u32]) -> impl Fn(Vec3) -> Vec3 {
+    let narrower = NARROWED * smoothstep(15.0, 95.0, back) * (1.0 - ear.hangs) * smoothstep(0.5, 3.0, k as f32);
+    let [across, opening] = [ear.across, ear.opening];
+    let offsets = ring.iter().map(|&v| (ear.at[v as usize] - ear.middles[k]).dot(across).abs());
+    let width = offsets.fold(1e-6, f32::max);
+    move |offset: Vec3| {
+        let u = offset.dot(across) / width;
+        offset - across * (narrower * u * width) + opening * (CURLED * narrower * width * (u * u - 0.4))
+    }
 }
 
 /// The least shift that brings the deepest of these vertices off the head, metres; none where it lay as deep at rest.
