@@ -1,10 +1,11 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
 //! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
-use super::MouthOfHead;
+use super::{MouthOfHead, off_bone};
 use super::tongue::{AROUND, SECTIONS};
 use crate::math::ops;
 use crate::motion::{Channel, Pose};
+use crate::rig::Rigid;
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the free part begins, as a part of the length, and from where on it is free.
@@ -19,10 +20,12 @@ const CURLS: f32 = 0.62;
 const WIDER: f32 = 0.40;
 /// Over the incisors, millimetres.
 const OVER: f32 = 1.5;
+/// Between tongue and skull, and mandible, which it grows out of: canonical millimetres.
+const COVER: [f32; 2] = [1.0, 0.3];
 
-/// Moves the tongue's control positions; `mouth`: at rest, `unit`: metres of a millimetre of the head with a skull of 200
+/// Moves the tongue's control positions; `mouth`: at rest, `jaw`: the mandible against the skull, `unit`: metres of a millimetre of the head with a skull of 200
 /// mm, `front`: how far in front its skin reaches, metres; `out`: as long as `mouth.tongue`.
-pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), out: &mut Vec<Vec3>) {
+pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front): (f32, f32), out: &mut Vec<Vec3>) {
     out.clear();
     out.extend_from_slice(&mouth.tongue);
     let [far, lift, curl, side, wide] =
@@ -55,7 +58,15 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
     // Before its tip begins to be round.
     let narrow = (0..SECTIONS).rev().find(|&i| along[i] < 0.8).map_or(widest, half_width);
     let incisor = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
+    // The width that teeth leave where so much of the way is gone.
+    let passage = |f: f32| {
+        let k = (1..SECTIONS - 1).find(|&i| f < along[i]).unwrap_or(SECTIONS - 1);
+        let t = ((f - along[k - 1]) / (along[k] - along[k - 1]).max(1e-6)).clamp(0.0, 1.0);
+        mouth.passage[k - 1] + t * (mouth.passage[k] - mouth.passage[k - 1])
+    };
     let (mut at, mut way) = (middle(0), 0.0);
+    // The same as if nothing bent it.
+    let mut straight = at;
     for i in 0..SECTIONS {
         let s = along[i];
         let thick = stretch(s);
@@ -68,15 +79,19 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
         };
         let step = steps[i] * thick;
         at += turn(s, way + 0.5 * step.length()) * step;
+        straight += step;
         way += step.length();
         let turn = turn(s, way);
         // Before the teeth it is as wide as it likes.
         let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(1.0, 1.2, way / length);
         let wider = frees * (1.0 + WIDER * wide * is_out * smooth(1.0, 1.2, way / length));
         let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
+        // Between the teeth it is as narrow as they are.
+        let held = x.min(passage(way / length) / half_width(i));
+        let x = held + (x - held) * smooth(1.0, 1.15, way / length);
         // It lies on the incisors where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
-        let lies = (incisor.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
+        let lies = (incisor.y - (straight.y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
         let lifted = at + vec3(0.0, lies, 0.0);
         let place = |p: Vec3| {
             let d = p - middle(i);
@@ -85,5 +100,10 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
         for &v in &mouth.sections[i] {
             out[v as usize] = place(rest[v as usize]);
         }
+    }
+    let [skull, mandible] = &mouth.bones;
+    for p in out.iter_mut() {
+        let above = off_bone(jaw.point(*p), skull, COVER[0], mouth.unit);
+        *p = off_bone(jaw.back(above), mandible, COVER[1], mouth.unit);
     }
 }

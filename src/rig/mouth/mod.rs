@@ -82,6 +82,12 @@ pub struct MouthOfHead {
     pub tongue: Vec<Vec3>,
     /// Vertices of the tongue by its sections from the root to the tip.
     sections: Vec<Vec<u16>>,
+    /// Half the width that teeth leave free, at each of them.
+    passage: [f32; tongue::SECTIONS],
+    /// Skull and mandible.
+    bones: [BoneField; 2],
+    /// A canonical millimetre, metres.
+    unit: f32,
     /// Highest and foremost place of the middle lower incisors.
     lower_front: Vec3,
 }
@@ -114,8 +120,11 @@ impl Mouth {
         let unit = teeth::unit(&targets);
         let skin = Implicit::new(proportions);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
-        let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
-        let MouthOfHead { half, teeth, upper, lower, tongue, sections, lower_front } = out;
+        let MouthOfHead { half, teeth, upper, lower, tongue, sections, passage, bones: fields, unit: own, lower_front } = out;
+        *own = unit;
+        for (field, bone) in fields.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
+            field.place(bone, &targets, unit);
+        }
         if sections.is_empty() {
             *sections = tongue::sections(&self.tongue);
         }
@@ -124,7 +133,7 @@ impl Mouth {
         let whole_head = (Layer::Whole, gums::LEAST_TISSUE);
         let bodies =
             [(&self.upper, upper, whole_head), (&self.lower, lower, (Layer::Lower, -3.0 * gums::LEAST_TISSUE))];
-        for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&fields).zip(bodies) {
+        for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&*fields).zip(bodies) {
             let keep = |p: Vec3, layer, least| under_skin(p, proportions, (&skin, layer), least);
             let under = |p: Vec3| keep(keep(p, Layer::Whole, gums::LEAST_TISSUE), layer, least);
             gums::place(arch, unit, field, under, half);
@@ -133,7 +142,7 @@ impl Mouth {
         let [above, below] = teeth;
         teeth::place(&targets, true, above);
         teeth::place(&targets, false, below);
-        tongue::place(&targets, &arches, [above, below], &fields, half);
+        *passage = tongue::place(&targets, &arches, [above, below], fields, half);
         self.tongue.unfold(half, tongue);
         let incisor = below.iter().take(teeth::TOOTH_VERTICES);
         *lower_front = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).with_x(0.0);

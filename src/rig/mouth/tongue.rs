@@ -100,14 +100,14 @@ struct Section {
     below: f32,
 }
 
-/// Positions of the half, metres; `bones`: skull and mandible.
+/// Positions of the half, metres; `bones`: skull and mandible. Gives half the width that teeth leave free at each section.
 pub(super) fn place(
     t: &Targets<Vec3>,
     arches: &[Arch; 2],
     teeth: [&Vec<Vec3>; 2],
     bones: &[BoneField; 2],
     out: &mut Vec<Vec3>,
-) {
+) -> [f32; SECTIONS] {
     let unit = teeth::unit(t);
     let [upper, lower] = arches;
     let [above, below] = rooms(teeth);
@@ -192,4 +192,5 @@ pub(super) fn place(
     let (first, last) = (sections[0], sections[SECTIONS - 1]);
     out.push(vec3(0.0, first.middle - 0.3 * first.below, back - 0.02 * length));
     out.push(vec3(0.0, last.middle, last.z + 0.01 * length));
+    sections.map(|s| s.half_width)
 }
