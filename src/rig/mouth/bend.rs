@@ -1,8 +1,8 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
 //! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
-use super::{MouthOfHead, off_bone};
 use super::tongue::{AROUND, SECTIONS};
+use super::{MouthOfHead, off_bone};
 use crate::math::ops;
 use crate::motion::{Channel, Pose};
 use crate::rig::Rigid;
@@ -50,14 +50,17 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
     // Where the incisors are on the way, which is as long as the tongue at rest.
     let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
     // Up it goes before the upper lip, down over the lower one.
-    let lips = length + (front - mouth.lower_front.z).max(0.0);
+    let lips = length + (front - jaw.point(middle(SECTIONS - 1)).z).max(0.0);
     let [from, to] = if lift > 0.0 { UP.map(|mm| lips + mm * unit) } else { [from, to] };
+    // What goes up before the nose is upright in the skull's frame, or it would lean into it.
+    let steepest = 90.0 + gape + 180.0 * (1.0 - smooth(0.0, 45.0, lift));
     let is_out = smooth(0.0, 12.0, far);
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
     let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
     // Before its tip begins to be round.
     let narrow = (0..SECTIONS).rev().find(|&i| along[i] < 0.8).map_or(widest, half_width);
-    let incisor = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
+    let incisors = mouth.lower_front.y + OVER * unit;
+    let moves = is_out.max(smooth(0.0, 4.0, -far));
     // The width that teeth leave where so much of the way is gone.
     let passage = |f: f32| {
         let k = (1..SECTIONS - 1).find(|&i| f < along[i]).unwrap_or(SECTIONS - 1);
@@ -74,7 +77,7 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
             // Teeth and palate hold what is still inside.
             let outside = smooth(from, to, way);
             let inside = curl.clamp(0.0, gape) * (1.0 - is_out) * smooth(CURLS, 1.0, s);
-            let up = lift * outside + curl * is_out * smooth(CURLS, 1.0, s) * outside + inside;
+            let up = (lift * outside + curl * is_out * smooth(CURLS, 1.0, s) * outside + inside).min(steepest);
             Mat3::from_rotation_y((side * outside).to_radians()) * Mat3::from_rotation_x(-up.to_radians())
         };
         let step = steps[i] * thick;
@@ -89,9 +92,11 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
         // Between the teeth it is as narrow as they are.
         let held = x.min(passage(way / length) / half_width(i));
         let x = held + (x - held) * smooth(1.0, 1.15, way / length);
-        // It lies on the incisors where it passes them.
+        // It lies on the front teeth where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
-        let lies = (incisor.y - (straight.y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
+        let bottom = straight.y + under * y;
+        let lies = ((incisors - bottom).max(0.0) * is_out).max((mouth.between - bottom).max(0.0) * moves)
+            * smooth(0.45, 0.92, way / length);
         let lifted = at + vec3(0.0, lies, 0.0);
         let place = |p: Vec3| {
             let d = p - middle(i);

@@ -90,6 +90,8 @@ pub struct MouthOfHead {
     unit: f32,
     /// Highest and foremost place of the middle lower incisors.
     lower_front: Vec3,
+    /// Height over which the tongue passes between the lower canines.
+    between: f32,
 }
 
 impl Default for Mouth {
@@ -120,7 +122,19 @@ impl Mouth {
         let unit = teeth::unit(&targets);
         let skin = Implicit::new(proportions);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
-        let MouthOfHead { half, teeth, upper, lower, tongue, sections, passage, bones: fields, unit: own, lower_front } = out;
+        let MouthOfHead {
+            half,
+            teeth,
+            upper,
+            lower,
+            tongue,
+            sections,
+            passage,
+            bones: fields,
+            unit: own,
+            lower_front,
+            between,
+        } = out;
         *own = unit;
         for (field, bone) in fields.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
             field.place(bone, &targets, unit);
@@ -146,6 +160,7 @@ impl Mouth {
         self.tongue.unfold(half, tongue);
         let incisor = below.iter().take(teeth::TOOTH_VERTICES);
         *lower_front = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).with_x(0.0);
+        *between = tongue::over_canines(below, unit);
     }
 }
 

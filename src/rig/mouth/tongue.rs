@@ -6,7 +6,7 @@
 use super::arch::Arch;
 use super::{HalfBody, Tissue, off_bone};
 use crate::math::ops::{self, smoothstep};
-use crate::rig::bone::teeth::{self, TOOTH_VERTICES};
+use crate::rig::bone::teeth::{self, TOOTH_VERTICES, ToothKind};
 use crate::rig::bone::{BoneField, Targets};
 use glam::{Vec3, vec3};
 
@@ -64,6 +64,19 @@ pub(super) fn sections(body: &HalfBody) -> Vec<Vec<u16>> {
         }
     }
     out
+}
+
+/// How far the inner side of a lower canine is from the median plane where a tongue passes, canonical millimetres; where it
+/// is farther than that, what it loses of its height for each millimetre.
+const PASSES: f32 = 2.2;
+const SPREAD: f32 = 8.0;
+
+/// The least height at which a tongue passes between the lower canines, which stand almost together in the narrowest jaws;
+/// `below`: the lower teeth.
+pub(super) fn over_canines(below: &[Vec3], unit: f32) -> f32 {
+    let canine = below.chunks(TOOTH_VERTICES).zip(&teeth::LOWER).find(|(_, tooth)| tooth.kind == ToothKind::Canine);
+    let height = |p: &Vec3| p.y - SPREAD * (p.x - PASSES * unit).max(0.0);
+    canine.map_or(f32::NEG_INFINITY, |(at, _)| at.iter().map(height).fold(f32::NEG_INFINITY, f32::max))
 }
 
 /// What a tooth takes up.

@@ -125,7 +125,14 @@ impl OffBone {
         at: &mut [Vec3],
     ) {
         for (k, place) in places.into_iter().enumerate() {
-            self.keep_off_one(neighbours, (&of.bones[k], of.unit), (&of.least[k], &of.leeway[k]), (place, rest), buffers, at);
+            self.keep_off_one(
+                neighbours,
+                (&of.bones[k], of.unit),
+                (&of.least[k], &of.leeway[k]),
+                (place, rest),
+                buffers,
+                at,
+            );
         }
     }
 
@@ -153,7 +160,9 @@ impl OffBone {
         limits.resize(n, Vec3::ZERO);
         for _ in 0..ROUNDS {
             open.clear();
-            open.extend((0..self.places.len() as u32).filter(|&p| self.places[p as usize].iter().any(|&v| asked[v as usize])));
+            open.extend(
+                (0..self.places.len() as u32).filter(|&p| self.places[p as usize].iter().any(|&v| asked[v as usize])),
+            );
             for &p in open.iter() {
                 for v in self.places[p as usize] {
                     limits[v as usize] = place.back(limit(neighbours, at, v as usize));
@@ -178,7 +187,11 @@ impl OffBone {
                     if lacks > 0.0 {
                         is_any = true;
                         let (_, g) = field.sample(here(k), 0.1 * unit);
-                        let out = self.places[p as usize].map(|v| normals[v as usize]).into_iter().sum::<Vec3>().normalize_or_zero();
+                        let out = self.places[p as usize]
+                            .map(|v| normals[v as usize])
+                            .into_iter()
+                            .sum::<Vec3>()
+                            .normalize_or_zero();
                         let own = g.normalize_or_zero();
                         // Bone is inside.
                         let to = (own + out * (TURNS - own.dot(out)).max(0.0)).normalize_or_zero();
