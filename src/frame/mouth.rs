@@ -61,7 +61,7 @@ impl MouthParts {
         if let Some((measures, proportions)) = head {
             self.mouth.shape(measures, proportions, &mut self.of_head);
         }
-        bend_tongue(&self.of_head, pose, size, &mut self.bent);
+        bend_tongue(&self.of_head, pose, &places.jaw, size, &mut self.bent);
         let MouthOfHead { upper, lower, .. } = &self.of_head;
         let bodies = [(upper, &places.head), (lower, &places.mandible), (&self.bent, &places.mandible)];
         for ((plan, values), (control, place)) in self.parts.iter_mut().zip(bodies) {

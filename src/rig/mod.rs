@@ -82,8 +82,7 @@ pub struct Rig {
 #[derive(Clone, Debug, Default)]
 pub struct Deformed {
     half: Vec<Vec3>,
-    /// The half with other lids.
-    posed: Vec<Vec3>,
+    posed: posing::Buffers,
     /// What poses need of this head; none until one is asked for.
     of_head: Option<posing::OfHead>,
     /// Buffers of the last one.
@@ -237,7 +236,7 @@ impl Rig {
         self.of_head(values, out);
         let Deformed { half, posed, of_head, control, eyes, places, ahead, .. } = out;
         let Some(head) = of_head else { return };
-        (*eyes, *places) = self.posing.apply(&self.plan, head, (half, ahead), pose, (posed, control));
+        (*eyes, *places) = self.posing.apply(&self.plan, head, (half, ahead), pose, posed, control);
     }
 
     /// What poses and muscles need of a head that [`Rig::deform`] made from these values; made when it is first asked for.

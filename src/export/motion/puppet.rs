@@ -97,8 +97,8 @@ impl Puppet {
     pub fn take(&mut self, pose: &Pose) -> Bend {
         let Self { rig, values, head, posed, bent, rest, .. } = self;
         rig.pose(values, pose, head);
-        bend_tongue(&self.mouth, &rig.posing().possible(pose), self.size, bent);
         let places = head.places;
+        bend_tongue(&self.mouth, &rig.posing().possible(pose), &places.jaw, self.size, bent);
         let n = head.control.len();
         posed[..n].copy_from_slice(&head.control);
         for (to, &p) in posed[n..].iter_mut().zip(bent.iter()) {

@@ -29,6 +29,9 @@ const SPLIT: f32 = 0.03;
 /// Above the ball at least, parts of its radius: inner margin, outer margin, fold. Between two rows the skin runs nearer to
 /// the ball than they do, over the third of a turn that a large eye asks for by a fifth of the radius.
 const ABOVE: [f32; 3] = [0.02, 0.16, 0.4];
+/// What a lid rises above a cornea that turns under it, for what the ball is higher there than when it looked ahead: what
+/// lies between two vertices of the lid would touch it.
+const OVER_CORNEA: f32 = 0.25;
 /// How far a control vertex of a margin goes beyond the line where they meet, radians.
 const FARTHEST: f32 = 0.1;
 /// How far the upper lid and the lower one turn for a turn of the gaze up or down, and for a raised lid, radians.
@@ -75,7 +78,8 @@ impl Hinge<'_> {
         let from = rest - ahead.centre;
         let was = from.length() - ahead.reach(from.normalize_or(self.axes[2]));
         let out = (p - self.eye.centre).normalize_or(self.axes[2]);
-        let least = self.eye.reach(out) + was.min(above * self.eye.radius);
+        let (now, before) = (self.eye.reach(out), ahead.reach(out));
+        let least = now + was.min(above * self.eye.radius) + OVER_CORNEA * (now - before).max(0.0);
         self.eye.centre + out * (p - self.eye.centre).length().max(least)
     }
 

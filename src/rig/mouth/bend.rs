@@ -1,10 +1,11 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
 //! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
-use super::MouthOfHead;
 use super::tongue::{AROUND, SECTIONS};
+use super::{MouthOfHead, off_bone};
 use crate::math::ops;
 use crate::motion::{Channel, Pose};
+use crate::rig::Rigid;
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the free part begins, as a part of the length, and from where on it is free.
@@ -19,10 +20,12 @@ const CURLS: f32 = 0.62;
 const WIDER: f32 = 0.40;
 /// Over the incisors, millimetres.
 const OVER: f32 = 1.5;
+/// Between tongue and skull, and mandible, which it grows out of: canonical millimetres.
+const COVER: [f32; 2] = [1.0, 0.3];
 
-/// Moves the tongue's control positions; `mouth`: at rest, `unit`: metres of a millimetre of the head with a skull of 200
+/// Moves the tongue's control positions; `mouth`: at rest, `jaw`: the mandible against the skull, `unit`: metres of a millimetre of the head with a skull of 200
 /// mm, `front`: how far in front its skin reaches, metres; `out`: as long as `mouth.tongue`.
-pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), out: &mut Vec<Vec3>) {
+pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front): (f32, f32), out: &mut Vec<Vec3>) {
     out.clear();
     out.extend_from_slice(&mouth.tongue);
     let [far, lift, curl, side, wide] =
@@ -47,15 +50,26 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
     // Where the incisors are on the way, which is as long as the tongue at rest.
     let [from, to] = [length - BEND[0] * unit, length + BEND[1] * unit];
     // Up it goes before the upper lip, down over the lower one.
-    let lips = length + (front - mouth.lower_front.z).max(0.0);
+    let lips = length + (front - jaw.point(middle(SECTIONS - 1)).z).max(0.0);
     let [from, to] = if lift > 0.0 { UP.map(|mm| lips + mm * unit) } else { [from, to] };
+    // What goes up before the nose is upright in the skull's frame, or it would lean into it.
+    let steepest = 90.0 + gape + 180.0 * (1.0 - smooth(0.0, 45.0, lift));
     let is_out = smooth(0.0, 12.0, far);
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
     let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
     // Before its tip begins to be round.
     let narrow = (0..SECTIONS).rev().find(|&i| along[i] < 0.8).map_or(widest, half_width);
-    let incisor = mouth.lower_front + vec3(0.0, OVER * unit, 0.0);
+    let incisors = mouth.lower_front.y + OVER * unit;
+    let moves = is_out.max(smooth(0.0, 4.0, -far));
+    // The width that teeth leave where so much of the way is gone.
+    let passage = |f: f32| {
+        let k = (1..SECTIONS - 1).find(|&i| f < along[i]).unwrap_or(SECTIONS - 1);
+        let t = ((f - along[k - 1]) / (along[k] - along[k - 1]).max(1e-6)).clamp(0.0, 1.0);
+        mouth.passage[k - 1] + t * (mouth.passage[k] - mouth.passage[k - 1])
+    };
     let (mut at, mut way) = (middle(0), 0.0);
+    // The same as if nothing bent it.
+    let mut straight = at;
     for i in 0..SECTIONS {
         let s = along[i];
         let thick = stretch(s);
@@ -63,20 +77,26 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
             // Teeth and palate hold what is still inside.
             let outside = smooth(from, to, way);
             let inside = curl.clamp(0.0, gape) * (1.0 - is_out) * smooth(CURLS, 1.0, s);
-            let up = lift * outside + curl * is_out * smooth(CURLS, 1.0, s) * outside + inside;
+            let up = (lift * outside + curl * is_out * smooth(CURLS, 1.0, s) * outside + inside).min(steepest);
             Mat3::from_rotation_y((side * outside).to_radians()) * Mat3::from_rotation_x(-up.to_radians())
         };
         let step = steps[i] * thick;
         at += turn(s, way + 0.5 * step.length()) * step;
+        straight += step;
         way += step.length();
         let turn = turn(s, way);
         // Before the teeth it is as wide as it likes.
         let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(1.0, 1.2, way / length);
         let wider = frees * (1.0 + WIDER * wide * is_out * smooth(1.0, 1.2, way / length));
         let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
-        // It lies on the incisors where it passes them.
+        // Between the teeth it is as narrow as they are.
+        let held = x.min(passage(way / length) / half_width(i));
+        let x = held + (x - held) * smooth(1.0, 1.15, way / length);
+        // It lies on the front teeth where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
-        let lies = (incisor.y - (middle(i).y + under * y)).max(0.0) * is_out * smooth(0.45, 0.92, way / length);
+        let bottom = straight.y + under * y;
+        let lies = ((incisors - bottom).max(0.0) * is_out).max((mouth.between - bottom).max(0.0) * moves)
+            * smooth(0.45, 0.92, way / length);
         let lifted = at + vec3(0.0, lies, 0.0);
         let place = |p: Vec3| {
             let d = p - middle(i);
@@ -85,5 +105,10 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, (unit, front): (f32, f32), 
         for &v in &mouth.sections[i] {
             out[v as usize] = place(rest[v as usize]);
         }
+    }
+    let [skull, mandible] = &mouth.bones;
+    for p in out.iter_mut() {
+        let above = off_bone(jaw.point(*p), skull, COVER[0], mouth.unit);
+        *p = off_bone(jaw.back(above), mandible, COVER[1], mouth.unit);
     }
 }

@@ -83,8 +83,16 @@ pub struct MouthOfHead {
     pub tongue: Vec<Vec3>,
     /// Vertices of the tongue by its sections from the root to the tip.
     sections: Vec<Vec<u16>>,
+    /// Half the width that teeth leave free, at each of them.
+    passage: [f32; tongue::SECTIONS],
+    /// Skull and mandible.
+    bones: [BoneField; 2],
+    /// A canonical millimetre, metres.
+    unit: f32,
     /// Highest and foremost place of the middle lower incisors.
     lower_front: Vec3,
+    /// Height over which the tongue passes between the lower canines.
+    between: f32,
 }
 
 impl Default for Mouth {
@@ -115,8 +123,23 @@ impl Mouth {
         let unit = teeth::unit(&targets);
         let skin = Implicit::new(proportions);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
-        let fields = [BoneMesh::Skull, BoneMesh::Mandible].map(|bone| BoneField::new(bone, &targets, unit));
-        let MouthOfHead { half, teeth, upper, lower, tongue, sections, lower_front } = out;
+        let MouthOfHead {
+            half,
+            teeth,
+            upper,
+            lower,
+            tongue,
+            sections,
+            passage,
+            bones: fields,
+            unit: own,
+            lower_front,
+            between,
+        } = out;
+        *own = unit;
+        for (field, bone) in fields.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
+            field.place(bone, &targets, unit);
+        }
         if sections.is_empty() {
             *sections = tongue::sections(&self.tongue);
         }
@@ -125,7 +148,7 @@ impl Mouth {
         let whole_head = (Layer::Whole, gums::LEAST_TISSUE);
         let bodies =
             [(&self.upper, upper, whole_head), (&self.lower, lower, (Layer::Lower, -3.0 * gums::LEAST_TISSUE))];
-        for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&fields).zip(bodies) {
+        for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&*fields).zip(bodies) {
             let keep = |p: Vec3, layer, least| under_skin(p, proportions, (&skin, layer), least);
             let under = |p: Vec3, wall: Wall| {
                 let least = if wall == Wall::Outer { gums::LEAST_TISSUE } else { least };
@@ -138,10 +161,11 @@ impl Mouth {
         let [above, below] = teeth;
         teeth::place(&targets, true, above);
         teeth::place(&targets, false, below);
-        tongue::place(&targets, &arches, [above, below], &fields, half);
+        *passage = tongue::place(&targets, &arches, [above, below], fields, half);
         self.tongue.unfold(half, tongue);
         let incisor = below.iter().take(teeth::TOOTH_VERTICES);
         *lower_front = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).with_x(0.0);
+        *between = tongue::over_canines(below, unit);
     }
 }
 

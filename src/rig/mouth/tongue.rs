@@ -6,7 +6,7 @@
 use super::arch::Arch;
 use super::{HalfBody, Tissue, off_bone};
 use crate::math::ops::{self, smoothstep};
-use crate::rig::bone::teeth::{self, TOOTH_VERTICES};
+use crate::rig::bone::teeth::{self, TOOTH_VERTICES, ToothKind};
 use crate::rig::bone::{BoneField, Targets};
 use glam::{Vec3, vec3};
 
@@ -66,6 +66,19 @@ pub(super) fn sections(body: &HalfBody) -> Vec<Vec<u16>> {
     out
 }
 
+/// How far the inner side of a lower canine is from the median plane where a tongue passes, canonical millimetres; where it
+/// is farther than that, what it loses of its height for each millimetre.
+const PASSES: f32 = 2.2;
+const SPREAD: f32 = 8.0;
+
+/// The least height at which a tongue passes between the lower canines, which stand almost together in the narrowest jaws;
+/// `below`: the lower teeth.
+pub(super) fn over_canines(below: &[Vec3], unit: f32) -> f32 {
+    let canine = below.chunks(TOOTH_VERTICES).zip(&teeth::LOWER).find(|(_, tooth)| tooth.kind == ToothKind::Canine);
+    let height = |p: &Vec3| p.y - SPREAD * (p.x - PASSES * unit).max(0.0);
+    canine.map_or(f32::NEG_INFINITY, |(at, _)| at.iter().map(height).fold(f32::NEG_INFINITY, f32::max))
+}
+
 /// What a tooth takes up.
 #[derive(Clone, Copy, Debug)]
 struct Room {
@@ -100,14 +113,14 @@ struct Section {
     below: f32,
 }
 
-/// Positions of the half, metres; `bones`: skull and mandible.
+/// Positions of the half, metres; `bones`: skull and mandible. Gives half the width that teeth leave free at each section.
 pub(super) fn place(
     t: &Targets<Vec3>,
     arches: &[Arch; 2],
     teeth: [&Vec<Vec3>; 2],
     bones: &[BoneField; 2],
     out: &mut Vec<Vec3>,
-) {
+) -> [f32; SECTIONS] {
     let unit = teeth::unit(t);
     let [upper, lower] = arches;
     let [above, below] = rooms(teeth);
@@ -192,4 +205,5 @@ pub(super) fn place(
     let (first, last) = (sections[0], sections[SECTIONS - 1]);
     out.push(vec3(0.0, first.middle - 0.3 * first.below, back - 0.02 * length));
     out.push(vec3(0.0, last.middle, last.z + 0.01 * length));
+    sections.map(|s| s.half_width)
 }

@@ -5,11 +5,8 @@
 
 use super::rigid::Rigid;
 use super::zones::{Neighbours, smoothstep};
-use crate::mesh::VertexId;
 use crate::motion::{Channel, Pose};
-use crate::rig::Proportions;
 use crate::rig::handles::{Handles, NONE};
-use crate::rig::implicit::{Implicit, Layer};
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the corner of the mouth goes, as a part of the mandible's turn: nearer to the upper lip, which is longer there.
@@ -26,19 +23,19 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
         }
     };
     // Free: cheek below the arch, throat, lips near their corner.
-    for i in 8..16 {
+    for i in 8..17 {
         for j in 6..10 {
             if i > 10 || j >= 8 {
                 set(h.s[i][j], None);
             }
         }
     }
-    for i in 3..17 {
+    for i in 3..19 {
         // From ring 10 on column 9 is the cheek's.
         for j in if i < 10 { 9 } else { 10 }..15 {
             let on_bone = i < 9 || (i < 12 && j > 11) || (i < 11 && j == 11);
             // Below the hinge skin would go back into the throat, which is full.
-            let weight = if i > 15 { Some(0.0) } else { on_bone.then_some(1.0) };
+            let weight = if i > 17 { Some(0.0) } else { on_bone.then_some(1.0) };
             set(h.l[i][j], weight);
         }
     }
@@ -57,46 +54,9 @@ pub(super) fn weights(h: &Handles, images: &[u32], regions: &Neighbours, n: usiz
 
 /// How far a tongue that is out keeps the jaw open, degrees.
 const BY_TONGUE: f32 = 9.0;
-/// How deep the mandible with its lip may lie in its skin, head units: what lies there of tissue.
-const TISSUE: f32 = 0.1;
-/// Longest way out of it, head units.
-const FARTHEST: f32 = 1.5;
-
-/// Vertices that the mandible may come to as it turns: those that make a part of the turn, and two rings around them.
-pub(super) fn near(weights: &[f32], neighbours: &Neighbours) -> Vec<u32> {
-    let mut near: Vec<bool> = weights.iter().map(|&w| w > 0.0).collect();
-    for _ in 0..2 {
-        let before = near.clone();
-        for (v, near) in near.iter_mut().enumerate() {
-            *near |= neighbours.of(VertexId(v as u32)).iter().any(|&n| before[n as usize]);
-        }
-    }
-    (0..weights.len() as u32).filter(|&v| near[v as usize] && weights[v as usize] < 1.0).collect()
-}
-
 /// The least gape that the pose's tongue asks for, degrees: it goes out between the teeth.
 pub(super) fn opened(pose: &Pose) -> f32 {
     BY_TONGUE * smoothstep(0.0, 12.0, pose.median(Channel::TongueOut))
-}
-
-/// Moves skin off the mandible, of whose turn it makes a part; `near`: see there, `jaw`: the mandible's place, `surface`:
-/// the head at rest.
-pub(super) fn keep_off(
-    near: &[u32],
-    jaw: &Rigid,
-    (shape, surface): (&Proportions, &Implicit),
-    rest: &[Vec3],
-    at: &mut [Vec3],
-) {
-    for v in near.iter().map(|&v| v as usize) {
-        let in_jaw = |p: Vec3| shape.proportional(jaw.back(p));
-        let (d, g) = surface.sample(in_jaw(at[v]), Layer::Lower);
-        if d < -TISSUE {
-            let least = surface.distance(shape.proportional(rest[v]), Layer::Lower).min(-TISSUE);
-            let way = (least - d).clamp(0.0, FARTHEST);
-            at[v] += jaw.direction(shape.direction(g.normalize_or_zero())) * (way * shape.scale);
-        }
-    }
 }
 
 /// The mandible in the head's frame; `hinge`: the middle of both condyles, `unit`: metres of a millimetre of the head with a

@@ -3,6 +3,7 @@
 //! Three things apart: [`PosePlan`] belongs to the mesh and is made once, [`OfHead`] belongs to a head and is made when its
 //! measures change, a [`Pose`] is of the moment. Nothing is allocated for a pose.
 
+mod bones;
 mod ears;
 mod fibres;
 mod jaw;
@@ -24,6 +25,7 @@ use super::{Eye, HalfMesh, RigError};
 use crate::math::ops;
 use crate::mesh::{DedgeMesh, VertexId};
 use crate::motion::{Channel, JointLimits, MuscleTable, Pose};
+use bones::{BonesOf, OffBone, Pushes};
 use ears::Ears;
 use glam::{Mat3, Vec3, vec3};
 use lips::Lips;
@@ -44,8 +46,7 @@ pub struct PosePlan {
     ears: Ears,
     /// One for each vertex of the whole mesh: how much of the mandible's turn it makes, and of the head's.
     jaw: Vec<f32>,
-    /// Vertices that the mandible may come to.
-    near_jaw: Vec<u32>,
+    off_bone: OffBone,
     neck: Vec<f32>,
     /// Numbers of the muscles that close the jaws.
     closers: [Option<usize>; 2],
@@ -76,9 +77,18 @@ pub struct OfHead {
     /// Landmarks of the left bone, in their list's order, metres.
     bone: Vec<Vec3>,
     surface: Option<(Proportions, Implicit)>,
+    bones: BonesOf,
     axes: [Vec3; 3],
     /// Lengths of the closing muscles at rest: origin and insertion.
     closers: [[Vec3; 2]; 2],
+}
+
+/// Buffers of a pose: made once, written again.
+#[derive(Clone, Debug, Default)]
+pub struct Buffers {
+    /// The half with other lids.
+    lids: Vec<Vec3>,
+    pushes: Pushes,
 }
 
 /// Where the rigid parts of a posed head are.
@@ -105,15 +115,16 @@ impl PosePlan {
         images.iter().enumerate().for_each(|(v, &image)| mirror[image as usize] = v as u32);
         let table = MuscleTable::embedded()?;
         let jaw = jaw::weights(h, images, &neighbours, n);
+        let neck = neck::weights(h, images, &neighbours, n);
         Ok(Self {
             limits: JointLimits::embedded()?,
             muscles: MusclePlan::new(&table, half, &neighbours, &base, &mirror)?,
             fibres: Fibres::new(&table, half)?,
             lips: Lips::new(h, &neighbours, &base),
             ears: Ears::new(h, &neighbours, &base),
-            near_jaw: jaw::near(&jaw, &neighbours),
+            off_bone: OffBone::new(mesh.indices().as_chunks::<3>().0, &half.whole_regions(), |v| neck[v] == neck::END),
             jaw,
-            neck: neck::weights(h, images, &neighbours, n),
+            neck,
             closers: ["masseter", "temporalis"].map(|id| table.index_of(id)),
             table,
             neighbours,
@@ -140,12 +151,15 @@ impl PosePlan {
         &self.neck
     }
 
-    /// The pose inside the limits of its joints, with the jaw open as far as a tongue that is out asks for.
+    /// The pose inside the limits of its joints, with the jaw open as far as a tongue that is out asks for and the head no
+    /// lower than its jaw is off the throat.
     #[must_use]
     pub fn possible(&self, pose: &Pose) -> Pose {
         let mut out = self.limits.clamped(pose);
         let gape = &mut out.channel_mut(Channel::JawGape)[0];
         *gape = gape.max(jaw::opened(pose).min(self.limits.of(Channel::JawGape).range.1));
+        let lowest = neck::lowest(&out);
+        out.channel_mut(Channel::HeadNod).iter_mut().for_each(|nod| *nod = nod.max(lowest));
         out
     }
 
@@ -156,7 +170,7 @@ impl PosePlan {
 
     /// Where the neck's cut end is in a pose, from the head at rest; `head`: [`super::Rig::of_head`].
     pub fn neck_end(&self, head: &OfHead, pose: &Pose) -> Rigid {
-        neck::turned(head.pivot, head.unit, &self.limits.clamped(pose), neck::END)
+        neck::turned(head.pivot, head.unit, &self.possible(pose), neck::END)
     }
 
     /// How muscles are seen.
@@ -190,6 +204,7 @@ impl PosePlan {
             [(bone.vertex + bone.frontostenion + bone.asterion) / 3.0, bone.coronion],
         ];
         self.muscles.of_head(of_half, &self.neighbours, (&out.rest, &out.normals), &bone, out.unit, &mut out.pulls);
+        self.off_bone.of_head(&self.neighbours, &out.rest, &bone, &mut out.bones);
         out.bone.clear();
         out.bone.extend(bone.list());
         out.surface = Some((*shape, Implicit::new(shape)));
@@ -222,7 +237,8 @@ impl PosePlan {
         head: &OfHead,
         (half, eye): (&[Vec3], &Eye),
         pose: &Pose,
-        (scratch, control): (&mut Vec<Vec3>, &mut [Vec3]),
+        Buffers { lids: scratch, pushes }: &mut Buffers,
+        control: &mut [Vec3],
     ) -> ([Eye; 2], Places) {
         let pose = &self.possible(pose);
         let mirror = self.muscles.mirror();
@@ -236,9 +252,6 @@ impl PosePlan {
             for (p, &w) in control.iter_mut().zip(&self.jaw).filter(|(_, w)| **w > 0.0) {
                 *p = jaw::turned(head.hinge, head.unit, pose, w).point(*p);
             }
-            if let Some((shape, surface)) = &head.surface {
-                jaw::keep_off(&self.near_jaw, &jaw, (shape, surface), &head.rest, control);
-            }
         }
         if let Some((shape, surface)) = &head.surface {
             self.ears.turn(pose, head.unit, &head.rest, (shape, surface), mirror, control);
@@ -250,13 +263,15 @@ impl PosePlan {
                 *p = part.point(*p);
             }
         }
+        let mandible = place.after(&jaw);
+        self.off_bone.keep_off(&self.neighbours, &head.bones, ([&place, &mandible], &head.rest), pushes, control);
         let eyes = eyes.map(|e| {
             if place.is_rest() {
                 return e;
             }
             Eye { centre: place.point(e.centre), axes: e.axes.map(|a| place.direction(a)), ..e }
         });
-        (eyes, Places { head: place, mandible: place.after(&jaw), jaw })
+        (eyes, Places { head: place, mandible, jaw })
     }
 
     /// See [`super::Rig::pressed`].

@@ -11,6 +11,10 @@ pub(super) const END: f32 = 0.45;
 /// How much of the head's way forward or back a part of the neck makes that turns with nothing.
 const GLIDES: f32 = 0.75;
 const ROUNDS: usize = 60;
+/// How far the head goes down, degrees, and what of that is lost for a degree of gape, of turn and of tilt: then the lower jaw
+/// comes to the throat earlier.
+const DOWN: f32 = 70.0;
+const LOST: [(Channel, f32); 3] = [(Channel::JawGape, 0.6), (Channel::HeadTurn, 0.45), (Channel::HeadTilt, 0.5)];
 
 /// Weight of the head's turn for each vertex of the whole mesh.
 pub(super) fn weights(h: &Handles, images: &[u32], neighbours: &Neighbours, n: usize) -> Vec<f32> {
@@ -23,6 +27,12 @@ pub(super) fn weights(h: &Handles, images: &[u32], neighbours: &Neighbours, n: u
         }
     }
     neighbours.passage(&held, ROUNDS)
+}
+
+/// The least nod of a pose, degrees, negative: as far down as the lower jaw is off the throat.
+pub(super) fn lowest(pose: &Pose) -> f32 {
+    let lost: f32 = LOST.iter().map(|&(c, part)| part * pose.median(c).abs()).sum();
+    -(DOWN - lost).max(0.0)
 }
 
 /// The head's place; `pivot`: the joint, metres; `part`: of the turn.
