@@ -18,6 +18,9 @@ const UP: [f32; 2] = [-8.0, 12.0];
 const CURLS: f32 = 0.62;
 /// How much wider a wide tongue is.
 const WIDER: f32 = 0.40;
+/// Where it has its own width outside, as a part of its way to the teeth, and that width as a part of its widest.
+const WIDE_FROM: f32 = 1.4;
+const FREE_WIDTH: f32 = 0.85;
 /// Over the incisors, millimetres.
 const OVER: f32 = 1.5;
 /// Between tongue and skull, and mandible, which it grows out of: canonical millimetres.
@@ -57,8 +60,6 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
     let is_out = smooth(0.0, 12.0, far);
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
     let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
-    // Before its tip begins to be round.
-    let narrow = (0..SECTIONS).rev().find(|&i| along[i] < 0.8).map_or(widest, half_width);
     let incisors = mouth.lower_front.y + OVER * unit;
     let moves = is_out.max(smooth(0.0, 4.0, -far));
     // The width that teeth leave where so much of the way is gone.
@@ -85,10 +86,13 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
         straight += step;
         way += step.length();
         let turn = turn(s, way);
-        // Before the teeth it is as wide as it likes.
-        let frees = 1.0 + (0.9 * widest / narrow - 1.0).max(0.0) * is_out * smooth(1.0, 1.2, way / length);
-        let wider = frees * (1.0 + WIDER * wide * is_out * smooth(1.0, 1.2, way / length));
-        let (x, y) = (wider * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(wider / frees));
+        // Before the teeth it is as wide as it likes, and its tip a spatula, however long it is drawn.
+        let outside = is_out * smooth(1.0, WIDE_FROM, way / length);
+        let flat = 1.0 + WIDER * wide * outside;
+        let end = ((s - 0.8) / 0.21).max(0.0);
+        let spatula = ops::powf((1.0 - end * end).max(0.05), 0.35);
+        let wider = 1.0 + (FREE_WIDTH * widest * spatula / half_width(i) - 1.0).max(0.0) * outside;
+        let (x, y) = (wider * flat * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(flat));
         // Between the teeth it is as narrow as they are.
         let held = x.min(passage(way / length) / half_width(i));
         let x = held + (x - held) * smooth(1.0, 1.15, way / length);
