@@ -296,8 +296,9 @@ fn a_unit_looks_other_in_a_client() {
             };
             hold(rest.most < 0.001 && rest.whiskers < 0.001);
             // Both sides' normals in the median plane are a sum before they are made unit.
-            hold(full.most < 0.05 && full.normal < 0.4);
-            hold(half.most < 4.0 && half.mean < 0.3);
+            // A lower lip that comes to the bone in the median plane from both sides is pushed off it once.
+            hold(full.most < 0.15 && full.normal < 0.4);
+            hold(half.most < 5.5 && half.mean < 0.3);
             hold(full.whiskers < 3.0 && half.whiskers < 12.0);
             worst = [worst[0].max(full.most), worst[1].max(half.most)];
         }
@@ -350,7 +351,7 @@ fn an_animation_plays_other_in_a_client() {
             let (name, Apart { most, part, mean, whiskers, .. }) = (&clip.name, worst);
             println!("{id:<16} {name:<24} {most:7.3} mm, {mean:7.4} in the mean, whiskers {whiskers:6.2}  {part}");
             // Skin that keeps off the turning mandible, and a tongue of four joints, are no sums of shapes.
-            if most > 5.5 || mean > 0.3 || whiskers > 15.0 {
+            if most > 6.5 || mean > 0.3 || whiskers > 15.0 {
                 faults.push(format!("{id} {name}"));
             }
         }

@@ -69,15 +69,20 @@ fn limit(neighbours: &Neighbours, at: &[Vec3], v: usize) -> Vec3 {
 }
 
 impl OffBone {
-    /// Skin with hair and lips, but for leather, lining and lids, which have their own place; `held`: vertices that stay.
-    pub(super) fn new(faces: &[[u32; 3]], regions: &[Region], held: impl Fn(usize) -> bool) -> Self {
+    /// Skin with hair and lips, but for leather, lining and `lids`, which have their own place; `held`: vertices that stay.
+    pub(super) fn new(
+        faces: &[[u32; 3]],
+        regions: &[Region],
+        lids: impl Fn(usize) -> bool,
+        held: impl Fn(usize) -> bool,
+    ) -> Self {
         let is_over = |r: Region| {
             !matches!(
                 r,
                 Region::EarInner | Region::EarOuter | Region::EarEdge | Region::Mouth | Region::Nostril | Region::Lid
             )
         };
-        let over: Vec<bool> = regions.iter().map(|&r| is_over(r)).collect();
+        let over: Vec<bool> = regions.iter().enumerate().map(|(v, &r)| is_over(r) && !lids(v)).collect();
         let vertices = (0..over.len() as u32).filter(|&v| over[v as usize]).map(|v| [v; 3]);
         let faces = faces.iter().copied().filter(|f| f.iter().all(|&v| over[v as usize]));
         let places = vertices.chain(faces).collect();

@@ -116,13 +116,23 @@ impl PosePlan {
         let table = MuscleTable::embedded()?;
         let jaw = jaw::weights(h, images, &neighbours, n);
         let neck = neck::weights(h, images, &neighbours, n);
+        let mut is_lid = vec![false; n];
+        deform::lid_vertices(h).for_each(|v| [v, mirror[v] as usize].into_iter().for_each(|v| is_lid[v] = true));
+        // The jaw has its own way for the corner of the mouth.
+        let corner = u32::from(h.s[10][9]);
+        let is_corner = |v: usize| v as u32 == corner || mirror[v] == corner;
         Ok(Self {
             limits: JointLimits::embedded()?,
             muscles: MusclePlan::new(&table, half, &neighbours, &base, &mirror)?,
             fibres: Fibres::new(&table, half)?,
             lips: Lips::new(h, &neighbours, &base),
             ears: Ears::new(h, &neighbours, &base),
-            off_bone: OffBone::new(mesh.indices().as_chunks::<3>().0, &half.whole_regions(), |v| neck[v] == neck::END),
+            off_bone: OffBone::new(
+                mesh.indices().as_chunks::<3>().0,
+                &half.whole_regions(),
+                |v| is_lid[v],
+                |v| neck[v] == neck::END || is_corner(v),
+            ),
             jaw,
             neck,
             closers: ["masseter", "temporalis"].map(|id| table.index_of(id)),
