@@ -50,6 +50,26 @@ impl World {
         skin_landmarks(&rig, &breed.values, &frame).into_iter().map(|l| ((l.id, l.side), l.position)).collect()
     }
 
+    /// How far the left ear's opening is turned outwards about the ear's length, degrees: the ring where its two margins are
+    /// farthest from the base without lying behind a fold.
+    fn opening(&mut self, breed: &Breed, asked: &Activation) -> f32 {
+        const RING: usize = 2;
+        let rig = self.pipeline.rig().clone();
+        let h = rig.plan().handles();
+        let mut look = |pose: Pose| {
+            self.pipeline.set_pose(pose);
+            let frame = self.pipeline.update(breed);
+            let middle = |ring: &[u16]| ring.iter().map(|&v| frame.control[usize::from(v)]).sum::<Vec3>() / 12.0;
+            let across = frame.control[usize::from(h.a[RING][0])] - frame.control[usize::from(h.a[RING][6])];
+            (middle(&h.a[RING]) - middle(&h.ear_base), across)
+        };
+        let (along, was) = look(Pose::default());
+        let (_, now) = look(self.library.pose_of(asked));
+        let along = along.normalize_or(Vec3::Y);
+        let [was, now] = [was, now].map(|v| v.reject_from(along).normalize_or_zero());
+        along.dot(was.cross(now)).atan2(was.dot(now)).to_degrees()
+    }
+
     /// Metres of a millimetre of the 200 mm head.
     fn unit(&self, breed: &Breed) -> f32 {
         let rig = self.pipeline.rig();
@@ -96,6 +116,14 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
                 );
                 println!("{line}");
                 if !bounds(motion.2, motion.3).contains(&value) {
+                    wrong.push(line);
+                }
+            }
+            if let Some((least, most)) = unit.opening_deg {
+                let value = world.opening(&breed, &asked);
+                let line = format!("{id:16} {:9} the ear's opening {value:7.1} of {least} to {most} degrees", unit.id);
+                println!("{line}");
+                if !(least..=most).contains(&value) {
                     wrong.push(line);
                 }
             }

@@ -18,6 +18,7 @@ pub mod panels;
 mod run;
 mod scene;
 mod state;
+mod thumbnails;
 mod turn;
 mod watch;
 
@@ -25,4 +26,5 @@ pub use chance::Chance;
 pub use measure::{Measured, measure};
 pub use measures::Measures;
 pub use run::{AppError, Launch, run};
+pub use thumbnails::Pictures;
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};
