@@ -130,12 +130,12 @@ fn an_mp4_cannot_be_played_or_its_lack_of_an_encoder_is_not_told() {
     done(&words);
     let read = std::process::Command::new("ffprobe")
         .args(["-v", "error", "-count_frames", "-select_streams", "v:0", "-of", "csv=p=0", "-show_entries"])
-        .args(["stream=codec_name,width,height,pix_fmt,avg_frame_rate,nb_read_frames", text(&out)])
+        .args(["stream=codec_name,width,height,pix_fmt,color_space,avg_frame_rate,nb_read_frames", text(&out)])
         .output();
     let Ok(read) = read else { return };
     let read = String::from_utf8_lossy(&read.stdout).trim().to_owned();
     // Odd sides get a row and a column more, as players take even ones alone.
-    assert_eq!(read, "h264,42,32,yuv420p,20/1,6");
+    assert_eq!(read, "h264,42,32,yuv420p,bt709,20/1,6");
     let broken = folder.path().join("no such folder").join("blink.mp4");
     let words: Vec<&str> = words.iter().map(|w| if *w == text(&out) { text(&broken) } else { w }).collect();
     refused(&words, 1, &["ffmpeg could not make the film"]);
@@ -144,15 +144,19 @@ fn an_mp4_cannot_be_played_or_its_lack_of_an_encoder_is_not_told() {
 #[test]
 fn a_landmark_stays_when_the_jaw_opens_and_the_head_turns() {
     let places = |words: &[&str]| -> Vec<(String, Vec<f64>)> {
-        let all: Vec<&str> =
-            ["landmarks", "--breed", "beagle", "--level", "1", "--json"].into_iter().chain(words.iter().copied()).collect();
+        let all: Vec<&str> = ["landmarks", "--breed", "beagle", "--level", "1", "--json"]
+            .into_iter()
+            .chain(words.iter().copied())
+            .collect();
         let rows: Vec<Value> = serde_json::from_str(&done(&all).stdout).expect("an array");
-        let place = |row: &Value| row["position_mm"].as_array().expect("three").iter().filter_map(Value::as_f64).collect();
+        let place =
+            |row: &Value| row["position_mm"].as_array().expect("three").iter().filter_map(Value::as_f64).collect();
         rows.iter().map(|row| (format!("{}{}", row["id"].as_str().expect("an id"), row["side"]), place(row))).collect()
     };
     let moved = |words: &[&str], id: &str| {
         let (rest, now) = (places(&[]), places(words));
-        let of = |list: &[(String, Vec<f64>)]| list.iter().find(|(own, _)| own.starts_with(id)).expect("there").1.clone();
+        let of =
+            |list: &[(String, Vec<f64>)]| list.iter().find(|(own, _)| own.starts_with(id)).expect("there").1.clone();
         of(&rest).iter().zip(of(&now)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
     };
     let open = ["--unit", "AU27=1"];

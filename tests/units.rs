@@ -92,6 +92,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
     let mut world = World::new();
     let units = world.library.units.units.clone();
     let mut wrong = Vec::new();
+    let mut widest = 0.0f32;
     for id in BREEDS {
         let breed = library::breed(&world.table, id).expect(id);
         let unit_m = world.unit(&breed);
@@ -121,6 +122,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
             }
             if let Some((least, most)) = unit.opening_deg {
                 let value = world.opening(&breed, &asked);
+                widest = widest.max(value);
                 let line = format!("{id:16} {:9} the ear's opening {value:7.1} of {least} to {most} degrees", unit.id);
                 println!("{line}");
                 if !(least..=most).contains(&value) {
@@ -147,6 +149,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
         }
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(widest > 70.0, "no ear's opening turns farther than {widest} degrees");
 }
 
 #[test]

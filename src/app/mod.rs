@@ -26,5 +26,5 @@ pub use chance::Chance;
 pub use measure::{Measured, measure};
 pub use measures::Measures;
 pub use run::{AppError, Launch, run};
-pub use thumbnails::Pictures;
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};
+pub use thumbnails::Pictures;

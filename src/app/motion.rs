@@ -29,8 +29,8 @@ pub struct Motion {
     time: f64,
     /// The clip that plays.
     clip: Option<usize>,
-    /// The units before one of them was shown alone.
-    before_solo: Option<(usize, Activation)>,
+    /// The unit that is shown alone, and the units and expressions before.
+    before_solo: Option<(usize, Activation, Vec<Mixed>)>,
     /// What the text field has, and what is wrong with it.
     pub typed: String,
     /// The field has the keyboard.
@@ -159,12 +159,15 @@ impl Motion {
     /// Shows a unit alone at 1; once more brings back what was there before.
     pub fn solo(&mut self, unit: usize) {
         match self.before_solo.take() {
-            Some((shown, before)) if shown == unit => self.act.units = before,
+            Some((shown, units, expressions)) if shown == unit => {
+                (self.act.units, self.act.expressions) = (units, expressions);
+            }
             earlier => {
-                let before = earlier.map_or(self.act.units, |(_, before)| before);
+                let now = (self.act.units, std::mem::take(&mut self.act.expressions));
+                let (units, expressions) = earlier.map_or(now, |(_, units, expressions)| (units, expressions));
                 self.act.units = Activation::default();
                 *self.act.units.get_mut(unit) = [1.0; 2];
-                self.before_solo = Some((unit, before));
+                self.before_solo = Some((unit, units, expressions));
             }
         }
         self.write_notation();
@@ -204,6 +207,7 @@ impl Motion {
 
     /// Mixes in an expression as it shows itself best; 0 takes it out.
     pub fn set_weight(&mut self, expression: usize, weight: f32) {
+        self.before_solo = None;
         self.act.expressions.retain(|mixed| mixed.expression != expression);
         if weight > 0.0 {
             self.act.expressions.push(Mixed { expression, weight: weight.min(1.0), start: None });
@@ -326,13 +330,15 @@ mod tests {
     fn solo_does_not_bring_back_what_was_there() {
         let mut motion = motion();
         motion.set_unit(3, [0.5, 0.2]);
+        motion.set_weight(4, 0.5);
         let before = *motion.units();
         motion.solo(1);
         assert_eq!((motion.units().get(1), motion.units().get(3)), ([1.0; 2], [0.0; 2]));
         motion.solo(2);
         assert_eq!((motion.units().get(1), motion.units().get(2)), ([0.0; 2], [1.0; 2]));
+        assert_eq!(motion.weight(4), 0.0, "alone is without expressions");
         motion.solo(2);
-        assert_eq!(*motion.units(), before);
+        assert_eq!((*motion.units(), motion.weight(4)), (before, 0.5));
     }
 
     #[test]

@@ -203,7 +203,8 @@ impl BesideRow {
         if !value.is_finite() {
             return Err(MotionError::row(file, channel.id(), format!("value is {value}, which is no number")));
         }
-        for (name, seconds) in [("start_s", start_s), ("onset_s", onset_s), ("hold_s", hold_s), ("offset_s", offset_s)] {
+        for (name, seconds) in [("start_s", start_s), ("onset_s", onset_s), ("hold_s", hold_s), ("offset_s", offset_s)]
+        {
             check_seconds(file, channel.id(), name, seconds)?;
         }
         Ok(Beside { channel, value, start_s, onset_s, hold_s, offset_s, evidence })

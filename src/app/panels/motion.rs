@@ -1,9 +1,9 @@
 //! What the head does: expressions, a timeline of clips, notation, and a mixer of DogFACS units by group.
 
-use crate::app::motion::Motion;
 use crate::app::Pictures;
+use crate::app::motion::Motion;
 use crate::app::state::EditorState;
-use crate::motion::{Channel, Group, Sides};
+use crate::motion::{Channel, Group, Overruled, Sides};
 use egui::RichText;
 
 /// The whole panel.
@@ -33,6 +33,7 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
     notation(motion, ui);
     ui.separator();
     timeline(motion, ui);
+    overruled(motion, ui);
     ui.separator();
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::CollapsingHeader::new("Expressions").default_open(true).show(ui, |ui| {
@@ -49,7 +50,6 @@ pub fn ui(state: &mut EditorState, ui: &mut egui::Ui) {
             let header = egui::CollapsingHeader::new(title).id_salt(("units", group)).default_open(true);
             header.show(ui, |ui| units(motion, group, ui));
         }
-        overruled(motion, ui);
     });
 }
 
@@ -61,6 +61,10 @@ fn part(value: &mut f32) -> egui::Slider<'_> {
 /// For show alone: a slider that is told to have two decimals would round the value itself.
 fn two_decimals(value: f64, _: std::ops::RangeInclusive<usize>) -> String {
     format!("{value:.2}")
+}
+
+fn one_decimal(value: f64, _: std::ops::RangeInclusive<usize>) -> String {
+    format!("{value:.1}")
 }
 
 /// The units as researchers write them.
@@ -200,14 +204,16 @@ fn units(motion: &mut Motion, group: Group, ui: &mut egui::Ui) {
             if unit.group != group {
                 continue;
             }
-            let is_split = motion.one_sided && unit.sides == Sides::Each;
-            let (name, hint) = (format!("{} {}", unit.label, unit.name), told(motion, number));
             let now = motion.units().get(number);
+            let is_split = unit.sides == Sides::Each && (motion.one_sided || now[0] != now[1]);
+            let (name, hint) = (format!("{} {}", unit.label, unit.name), told(motion, number));
             let text = RichText::new(&name);
             let text = if now == [0.0; 2] { text } else { text.strong() };
             let label = egui::Label::new(text).sense(egui::Sense::click()).wrap();
             let label = ui.vertical(|ui| {
                 ui.set_width(name_width);
+                // On a line with the slider's rail.
+                ui.add_space(2.0);
                 ui.add(label).on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text(hint)
             });
             let label = label.inner;
@@ -223,9 +229,8 @@ fn units(motion: &mut Motion, group: Group, ui: &mut egui::Ui) {
             };
             let changed = if is_split {
                 ui.spacing_mut().slider_width = 0.5 * (slider_width - NUMBER - ui.spacing().item_spacing.x * 2.0);
-                let sides = |ui: &mut egui::Ui| {
-                    slider(ui, &mut values[0], shown[0]) | slider(ui, &mut values[1], shown[1])
-                };
+                let sides =
+                    |ui: &mut egui::Ui| slider(ui, &mut values[0], shown[0]) | slider(ui, &mut values[1], shown[1]);
                 ui.horizontal(sides).inner
             } else {
                 ui.spacing_mut().slider_width = slider_width;
@@ -255,7 +260,7 @@ fn mark(ui: &egui::Ui, slider: &egui::Response, asked: f32, shown: f32) {
     let inset = slider.rect.height() / 2.5;
     let rail = slider.rect.left() + inset..=slider.rect.left() + ui.spacing().slider_width - inset;
     let x = egui::lerp(rail, shown.clamp(0.0, 1.0));
-    let stroke = egui::Stroke::new(3.0, ui.visuals().selection.bg_fill);
+    let stroke = egui::Stroke::new(3.0, ui.visuals().hyperlink_color);
     ui.painter().vline(x, slider.rect.shrink(3.0).y_range(), stroke);
 }
 
@@ -265,14 +270,14 @@ fn beside(motion: &mut Motion, ui: &mut egui::Ui) {
     let (narrowest, widest) = limits.of(Channel::Pupil).range;
     let label = ui.label("Pupils").on_hover_text("Wider in the dark and in arousal, narrower in light");
     let mut width = motion.pupils();
-    let slider = egui::Slider::new(&mut width, narrowest..=widest).custom_formatter(two_decimals).suffix(" mm");
+    let slider = egui::Slider::new(&mut width, narrowest..=widest).custom_formatter(one_decimal).suffix(" mm");
     if ui.add(slider).labelled_by(label.id).changed() {
         motion.set_pupils(width);
     }
     ui.end_row();
     let label = ui.label("Vergence").on_hover_text("How far each eye turns to something near, before the nose");
     let mut turn = motion.vergence();
-    let slider = egui::Slider::new(&mut turn, 0.0..=MOST_VERGENCE).custom_formatter(two_decimals).suffix("°");
+    let slider = egui::Slider::new(&mut turn, 0.0..=MOST_VERGENCE).custom_formatter(one_decimal).suffix("°");
     if ui.add(slider).labelled_by(label.id).changed() {
         motion.set_vergence(turn);
     }
@@ -294,17 +299,33 @@ fn told(motion: &Motion, number: usize) -> String {
     text
 }
 
+/// How many lines of it are shown at once.
+const MOST_OVERRULED: usize = 4;
+
 /// What did not come as it was asked for, and why.
 fn overruled(motion: &Motion, ui: &mut egui::Ui) {
-    if motion.overruled().is_empty() {
-        return;
-    }
-    ui.separator();
-    ui.strong("Overruled");
+    // At the foot of the panel, where it is seen whatever is being moved. It is there even when it is empty: one that came and
+    // went would give the sliders after it other ids, and a hand that drags one would lose it.
     let units = &motion.library.units;
-    for told in motion.overruled() {
+    let line = |told: &Overruled| {
         let (unit, by) = (&units.units[told.unit].label, &units.units[told.by].label);
         let (side, rule) = (told.side.suffix(), &units.rules[told.rule]);
-        ui.label(format!("{unit}{side} {:.2} to {:.2} by {by}: {}", told.from, told.to, rule.why));
-    }
+        format!("{unit}{side} {:.2} to {:.2} by {by}: {}", told.from, told.to, rule.why)
+    };
+    let (first, others) = motion.overruled().split_at(motion.overruled().len().min(MOST_OVERRULED));
+    let n_lines = 1 + first.len() + usize::from(!others.is_empty());
+    let height = ui.text_style_height(&egui::TextStyle::Body) + ui.spacing().item_spacing.y;
+    egui::Panel::bottom("overruled").exact_size(n_lines as f32 * height + 8.0).show(ui, |ui| {
+        match first.is_empty() {
+            true => ui.weak("Nothing is overruled"),
+            false => ui.strong("Overruled"),
+        };
+        for told in first {
+            ui.add(egui::Label::new(line(told)).truncate());
+        }
+        if !others.is_empty() {
+            let all: Vec<String> = others.iter().map(line).collect();
+            ui.weak(format!("and {} more", others.len())).on_hover_text(all.join("\n"));
+        }
+    });
 }
