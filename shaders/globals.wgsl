@@ -6,7 +6,7 @@ struct Eyeball {
     centre: vec4<f32>,
     // Sideways, up, the gaze; and the angle of the limbus off the gaze, to the side and upwards.
     axes: array<vec4<f32>, 3>,
-    // Linear.
+    // Linear; and how much wider the pupil is than at rest, as a part of the iris' width.
     iris: vec4<f32>,
     // Two points of the opening each: directions from the centre, (x, y) / (1 + z).
     lids: array<vec4<f32>, 6>,

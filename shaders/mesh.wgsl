@@ -413,7 +413,7 @@ fn iris_colour(colour: vec3<f32>, place: vec2<f32>, r: f32) -> vec3<f32> {
     return colour * max(shade, vec3<f32>(0.05));
 }
 
-// Width of the pupil as a part of the iris'.
+// Width of the pupil at rest as a part of the iris'.
 const PUPIL: f32 = 0.37;
 // Refraction of air to the fluid behind the cornea.
 const FLUID: f32 = 0.749;
@@ -481,7 +481,10 @@ fn eye(at: Point, colour: vec3<f32>) -> vec3<f32> {
         let depth = cos(limbus) + 0.05;
         let hit = place.xy + inward.xy * max((depth - place.z) / min(inward.z, -0.2), 0.0);
         let r = length(hit) / (sin(limbus) * 0.97);
-        let rim = min(r, 1.0);
+        // Where the tissue that is seen there lies at rest: a wide pupil presses the iris together, a narrow one draws it out.
+        let pupil = PUPIL + globals.eyes[e].iris.w;
+        let outside = PUPIL + (r - pupil) * (1.0 - PUPIL) / (1.0 - pupil);
+        let rim = min(select(r * PUPIL / pupil, outside, r > pupil), 1.0);
         // Light is bent towards the axis; what the cornea gathers falls on the side away from the lamp.
         let entering = clamp(key.z * 0.75 + 0.25, 0.0, 1.0) * p.lit;
         let away_from_lamp = dot(hit, -key.xy) / max(length(hit) * length(key.xy), 1e-4);
@@ -490,7 +493,7 @@ fn eye(at: Point, colour: vec3<f32>) -> vec3<f32> {
         inside += globals.fill_light.rgb * 0.5 * p.open + gathered(p.normal) * p.open * 0.8;
         let pixel = max(length(dpdx(hit)), length(dpdy(hit)));
         let border = max(0.035, pixel);
-        let open_pupil = 1.0 - smoothstep(PUPIL - border, PUPIL + border, r);
+        let open_pupil = 1.0 - smoothstep(pupil - border, pupil + border, r);
         let tissue = iris_colour(globals.eyes[e].iris.rgb, hit, rim);
         let seen = mix(tissue, vec3<f32>(0.0022, 0.0018, 0.0016), open_pupil) * inside;
         light = mix(light, seen, through);

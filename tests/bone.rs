@@ -9,7 +9,9 @@ mod settings;
 use glam::Vec3;
 use londra::anatomy::{Breed, load_breed};
 use londra::frame::{Layers, Material, Pipeline};
-use londra::measure::{Calliper, Side, SkullClass, bone_landmarks, skin_landmarks, value};
+use londra::measure::{Calliper, Landmark, Side, SkullClass, bone_landmarks, skin_landmarks, value};
+use londra::motion::{Channel, Pose};
+use londra::rig::Places;
 use londra::rig::bone::{BoneField, BoneMesh, Bones, BonesOfHead, LANDMARKS, Targets, targets, teeth};
 use settings::{World, sweeps_all};
 
@@ -251,7 +253,7 @@ fn the_canonical_head_is_not_itself() {
     let mut pipeline = Pipeline::new(world.rig.clone(), 3).expect("a level in range");
     let frame = pipeline.update(&head);
     let skin = skin_landmarks(&world.rig, &head.values, &frame);
-    let bone = bone_landmarks(&world.rig, &bones(), &head.values);
+    let bone = bone_landmarks(&world.rig, &bones(), &head.values, &Places::default());
     let table = include_str!("support/canonical_landmarks.csv");
     let (mut of_skin, mut of_bone) = (Vec::new(), Vec::new());
     for line in table.lines().filter(|l| !l.starts_with('#')) {
@@ -275,6 +277,42 @@ fn the_canonical_head_is_not_itself() {
     println!("bone: {} landmarks, mean {:.1}, most {:.1}", of_bone.len(), mean(&of_bone), most(&of_bone));
     assert!(of_skin.len() > 45 && mean(&of_skin) < 5.5 && most(&of_skin) < 13.0);
     assert!(of_bone.len() > 35 && mean(&of_bone) < 1.5 && most(&of_bone) < 5.0);
+}
+
+/// Against the bones that are drawn, whose refinement keeps the vertices.
+#[test]
+fn a_landmark_of_the_bone_stays_behind_when_the_head_moves() {
+    let world = World::embedded();
+    let bones = bones();
+    let mut pipeline = Pipeline::new(world.rig.clone(), 1).expect("a level in range");
+    pipeline.set_layers(Layers::parse("bone").expect("layers")).expect("parts");
+    let breed = world.breed("beagle");
+    let rest = bone_landmarks(&world.rig, &bones, &breed.values, &Places::default());
+    let pose = Pose::default().with(Channel::JawGape, 40.0).with(Channel::HeadTurn, 30.0).with(Channel::HeadNod, -20.0);
+    for (pose, jaw_moves, head_moves) in [
+        (Pose::default(), false, false),
+        (Pose::default().with(Channel::JawGape, 40.0), true, false),
+        (pose, true, true),
+    ] {
+        pipeline.set_pose(pose);
+        pipeline.update(breed);
+        let places = pipeline.places();
+        let frame = pipeline.frame();
+        let now = bone_landmarks(&world.rig, &bones, &breed.values, &places);
+        for (bone, name, moves) in
+            [(&bones.skull, "skull", head_moves), (&bones.mandible, "mandible", head_moves || jaw_moves)]
+        {
+            let drawn = frame.parts.iter().find(|p| p.topology.name == name).expect("a bone").positions;
+            for (id, vertex) in bone.half().landmarks.iter().filter(|(id, _)| id.starts_with('S')) {
+                let of = |list: &[Landmark]| {
+                    list.iter().find(|l| l.id == *id && l.side != Side::Right).expect("a landmark").position
+                };
+                let (was, is) = (of(&rest), of(&now));
+                assert!(is.distance(drawn[usize::from(*vertex)]) < 1e-6, "{id} is not on the {name}");
+                assert_eq!(is.distance(was) > 1e-3, moves, "{id} of the {name} moved by {} m", is.distance(was));
+            }
+        }
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 #[path = "support/program.rs"]
 mod program;
 
-use program::{done, folder, names_in, png_size, refused, text};
+use program::{command, done, finished, folder, names_in, png_size, refused, text};
 use serde_json::Value;
 
 const SMALL: [&str; 6] = ["--level", "1", "--breed", "pug", "--json", "--threads=2"];
@@ -112,6 +112,58 @@ fn a_film_without_length_name_or_encoder_is_begun() {
     film(&["--frames", "0..5", "-o", "a.png"], "%04d");
     film(&["--clip", "pant", "--time", "1", "-o", "a.gif"], "leave out --time");
     film(&["--frames", "5..5", "-o", "a.gif"], "such as 0..48");
+}
+
+/// Where ffmpeg is installed the film is read back, where it is not one is told how to get it, and either way without one.
+#[test]
+fn an_mp4_cannot_be_played_or_its_lack_of_an_encoder_is_not_told() {
+    let folder = folder();
+    let out = folder.path().join("blink.mp4");
+    let words = ["render", "--breed", "pug", "--level", "1", "--hair", "off", "--size", "41x31", "--samples", "4"];
+    let words: Vec<&str> = words.into_iter().chain(["--clip", "blink", "--fps", "20", "-o", text(&out)]).collect();
+    let told = finished(command(&words).env("PATH", folder.path()).output().expect("it runs"));
+    assert_eq!(told.code, 1, "{}", told.stderr);
+    assert!(told.stderr.contains("ffmpeg, which is not installed"), "{}", told.stderr);
+    assert!(!out.exists());
+    let Ok(version) = std::process::Command::new("ffmpeg").arg("-version").output() else { return };
+    assert!(version.status.success());
+    done(&words);
+    let read = std::process::Command::new("ffprobe")
+        .args(["-v", "error", "-count_frames", "-select_streams", "v:0", "-of", "csv=p=0", "-show_entries"])
+        .args(["stream=codec_name,width,height,pix_fmt,color_space,avg_frame_rate,nb_read_frames", text(&out)])
+        .output();
+    let Ok(read) = read else { return };
+    let read = String::from_utf8_lossy(&read.stdout).trim().to_owned();
+    // Odd sides get a row and a column more, as players take even ones alone.
+    assert_eq!(read, "h264,42,32,yuv420p,bt709,20/1,6");
+    let broken = folder.path().join("no such folder").join("blink.mp4");
+    let words: Vec<&str> = words.iter().map(|w| if *w == text(&out) { text(&broken) } else { w }).collect();
+    refused(&words, 1, &["ffmpeg could not make the film"]);
+}
+
+#[test]
+fn a_landmark_stays_when_the_jaw_opens_and_the_head_turns() {
+    let places = |words: &[&str]| -> Vec<(String, Vec<f64>)> {
+        let all: Vec<&str> = ["landmarks", "--breed", "beagle", "--level", "1", "--json"]
+            .into_iter()
+            .chain(words.iter().copied())
+            .collect();
+        let rows: Vec<Value> = serde_json::from_str(&done(&all).stdout).expect("an array");
+        let place =
+            |row: &Value| row["position_mm"].as_array().expect("three").iter().filter_map(Value::as_f64).collect();
+        rows.iter().map(|row| (format!("{}{}", row["id"].as_str().expect("an id"), row["side"]), place(row))).collect()
+    };
+    let moved = |words: &[&str], id: &str| {
+        let (rest, now) = (places(&[]), places(words));
+        let of =
+            |list: &[(String, Vec<f64>)]| list.iter().find(|(own, _)| own.starts_with(id)).expect("there").1.clone();
+        of(&rest).iter().zip(of(&now)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+    };
+    let open = ["--unit", "AU27=1"];
+    assert!(moved(&open, "S32") > 60.0 && moved(&open, "K13") > 60.0, "the chin, on bone and on skin");
+    assert_eq!(moved(&open, "S01"), 0.0, "the upper jaw");
+    let turned = ["--unit", "AD51=1"];
+    assert!(moved(&turned, "S01") > 60.0 && moved(&turned, "K01") > 60.0);
 }
 
 #[test]

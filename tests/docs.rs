@@ -298,6 +298,10 @@ fn units_text(library: &Library) -> String {
             .iter()
             .map(|m| format!("{} {:?} {} to {} mm", m.0, m.1, m.2, m.3))
             .chain(unit.gaps.iter().map(|g| format!("{} and {} {} to {} mm apart", g.0, g.1, g.2, g.3)))
+            .chain(
+                unit.opening_deg
+                    .map(|(least, most)| format!("the ear's opening turns outwards by {least} to {most} degrees")),
+            )
             .collect();
         if !moves.is_empty() {
             let _ = writeln!(out, "Landmarks at 1: {}.", moves.join("; "));

@@ -11,7 +11,7 @@ use londra::anatomy::Breed;
 use londra::export::motion::{JOINT_NAMES, Kind, Motion, N_JOINTS, Selection, Source};
 use londra::export::{GlbError, GlbOptions, to_glb};
 use londra::frame::{Frame, Layers, Part, Pipeline};
-use londra::motion::{Activation, Library, Moment, Pose, Side};
+use londra::motion::{Activation, Library, Pose, Side};
 use settings::World;
 use std::collections::BTreeMap;
 
@@ -337,7 +337,7 @@ fn an_animation_plays_other_in_a_client() {
                 // On samples, as clients show the still frames in between as lines.
                 let time = (seconds(&clip.name).unwrap() * f64::from(step) / 4.0 * 30.0).floor() / 30.0;
                 let moment = match library.expression(&clip.name) {
-                    Some(expression) => Moment::from(expression.at(time)),
+                    Some(expression) => expression.moment(time),
                     None => library.clip(&clip.name).unwrap().at(time),
                 };
                 pipeline.set_pose(library.pose(&moment, time, |_| ()));

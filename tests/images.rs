@@ -14,6 +14,7 @@ mod stand_in;
 use difference::{Difference, difference};
 use glam::Vec3;
 use londra::anatomy::{Breed, Pattern};
+use londra::motion::{Channel, Pose};
 use londra::render::{Background, Camera, Drawing, Gpu, Lens, Offscreen, Picture, Shading, View};
 use pictures::{Heads, offscreen};
 use std::path::PathBuf;
@@ -172,4 +173,25 @@ fn a_size_that_cannot_be_drawn_is_an_error() {
     let drawing = Drawing::new(Camera::at(View::Front, None, Lens::default()));
     assert!(offscreen.draw(&head.frame(), &drawing, [0, 10]).is_err());
     assert!(offscreen.draw(&head.frame(), &drawing, [10, 1 << 20]).is_err());
+}
+
+/// Dark pixels around the left eye: a wide pupil has more of them than one at rest, a narrow one fewer.
+#[test]
+fn a_wide_pupil_is_drawn_as_one_at_rest() {
+    let (mut heads, mut offscreen) = (Heads::new(4), offscreen());
+    let breed = heads.breed("labrador");
+    let mut dark = |millimetres: f32| {
+        heads.pipeline.set_pose(Pose::default().with(Channel::Pupil, millimetres));
+        let frame = heads.pipeline.update(&breed);
+        let eye = frame.eyes[0].eye;
+        let mut camera = Camera::at(View::Portrait, None, Lens::default());
+        let around: Vec<Vec3> =
+            [-1.0, 1.0].into_iter().flat_map(|s| eye.axes.map(|axis| eye.centre + axis * (s * eye.radius))).collect();
+        camera.fit(around.iter(), 1.0, 0.0);
+        let picture = offscreen.draw(&frame, &Drawing::new(camera), [96, 96]).unwrap();
+        picture.rgba.as_chunks::<4>().0.iter().filter(|p| p[..3].iter().all(|c| *c < 36)).count()
+    };
+    let [narrow, rest, wide] = [-3.0, 0.0, 6.0].map(&mut dark);
+    println!("{narrow} {rest} {wide} dark pixels");
+    assert!(2 * narrow < rest && wide > 2 * rest, "{narrow} {rest} {wide} dark pixels");
 }

@@ -48,7 +48,7 @@ fn poses(library: &Library) -> Vec<(String, Pose)> {
     for e in &library.expressions {
         for part in TIMES {
             let time = e.seconds() * part;
-            out.push((format!("expression {} {time:.2}", e.id), library.pose_of(&e.at(time))));
+            out.push((format!("expression {} {time:.2}", e.id), library.pose(&e.moment(time), 0.0, |_| ())));
         }
     }
     for clip in &library.clips {

@@ -513,6 +513,82 @@ fn the_mixer_moves_nothing_or_cannot_be_undone() {
     assert_eq!(posed(harness.state_mut()), rest);
 }
 
+/// One history: the dog and what it does, in the order in which they were touched.
+#[test]
+fn measures_and_motion_are_not_one_history() {
+    let mut harness = harness();
+    harness.get_by_label("Motion").click();
+    harness.run();
+    let motion = |harness: &Harness<'static, EditorState>| harness.state().motion.asked();
+    let rest = motion(&harness);
+    assert!(!harness.state().can_undo(), "opening a panel is no step");
+    let (label, index, other) = measure(harness.state(), "facial_length_mm");
+
+    harness.get_by_role_and_label(Role::Slider, "AU27 Mouth stretch").set_value_accesskit(0.6);
+    harness.run();
+    let open = motion(&harness);
+    harness.get_by_role_and_label(Role::Slider, &label).set_value_accesskit(other);
+    harness.run();
+    harness.get_by_role_and_label(Role::Button, "fear").click();
+    harness.run();
+    let afraid = motion(&harness);
+    harness.get_by_role_and_label(Role::Slider, "Pupils").set_value_accesskit(3.0);
+    harness.run();
+    let yawn = harness.state().motion.library.clips.iter().position(|c| c.id == "yawn").unwrap();
+    harness.state_mut().motion.set_clip(Some(yawn));
+    (0..5).for_each(|_| harness.step());
+    harness.get_by_label("Pause").click();
+    harness.run_steps(2);
+    harness.run();
+    let stopped = motion(&harness);
+    assert!(harness.state().motion.timeline().0 > 0.0);
+    harness.state_mut().motion.scrub(0.01);
+    harness.run();
+
+    let undo = |harness: &mut Harness<'static, EditorState>| {
+        harness.get_by_label("Undo").click();
+        harness.run();
+    };
+    undo(&mut harness);
+    assert_eq!(motion(&harness), stopped, "back to where it was stopped");
+    undo(&mut harness);
+    assert_eq!((harness.state().motion.clip(), harness.state().motion.pupils()), (None, 3.0));
+    undo(&mut harness);
+    assert_eq!(motion(&harness), afraid);
+    undo(&mut harness);
+    assert_eq!(motion(&harness), open);
+    assert!(harness.state().is_overridden(index), "the measure was set before the expression");
+    undo(&mut harness);
+    assert_eq!(motion(&harness), open);
+    assert!(!harness.state().is_overridden(index));
+    undo(&mut harness);
+    assert_eq!(motion(&harness), rest);
+    assert!(!harness.state().can_undo(), "time that passes is no step");
+    for _ in 0..3 {
+        harness.get_by_label("Redo").click();
+        harness.run();
+    }
+    assert_eq!(motion(&harness), afraid);
+    assert!(harness.state().is_overridden(index));
+}
+
+/// A hand that drags a unit, or types a word, makes one step.
+#[test]
+fn a_drag_of_a_unit_is_many_steps() {
+    let mut state = state();
+    let brow = state.motion.library.units.index_of("AU101").unwrap();
+    for step in 1..=10 {
+        state.motion.set_unit(brow, [step as f32 / 10.0; 2]);
+        state.note_motion(true);
+    }
+    state.end_gesture();
+    state.undo();
+    assert!(state.motion.units().is_rest() && !state.can_undo());
+    state.redo();
+    assert_eq!(state.motion.units().get(brow), [1.0; 2]);
+    assert_eq!(state.motion.typed, "101", "the field says what is asked for");
+}
+
 #[test]
 fn typed_notation_moves_nothing_or_its_mistake_is_not_shown() {
     let mut harness = harness();

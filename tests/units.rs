@@ -50,6 +50,26 @@ impl World {
         skin_landmarks(&rig, &breed.values, &frame).into_iter().map(|l| ((l.id, l.side), l.position)).collect()
     }
 
+    /// How far the left ear's opening is turned outwards about the ear's length, degrees: the ring where its two margins are
+    /// farthest from the base without lying behind a fold.
+    fn opening(&mut self, breed: &Breed, asked: &Activation) -> f32 {
+        const RING: usize = 2;
+        let rig = self.pipeline.rig().clone();
+        let h = rig.plan().handles();
+        let mut look = |pose: Pose| {
+            self.pipeline.set_pose(pose);
+            let frame = self.pipeline.update(breed);
+            let middle = |ring: &[u16]| ring.iter().map(|&v| frame.control[usize::from(v)]).sum::<Vec3>() / 12.0;
+            let across = frame.control[usize::from(h.a[RING][0])] - frame.control[usize::from(h.a[RING][6])];
+            (middle(&h.a[RING]) - middle(&h.ear_base), across)
+        };
+        let (along, was) = look(Pose::default());
+        let (_, now) = look(self.library.pose_of(asked));
+        let along = along.normalize_or(Vec3::Y);
+        let [was, now] = [was, now].map(|v| v.reject_from(along).normalize_or_zero());
+        along.dot(was.cross(now)).atan2(was.dot(now)).to_degrees()
+    }
+
     /// Metres of a millimetre of the 200 mm head.
     fn unit(&self, breed: &Breed) -> f32 {
         let rig = self.pipeline.rig();
@@ -72,6 +92,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
     let mut world = World::new();
     let units = world.library.units.units.clone();
     let mut wrong = Vec::new();
+    let mut widest = 0.0f32;
     for id in BREEDS {
         let breed = library::breed(&world.table, id).expect(id);
         let unit_m = world.unit(&breed);
@@ -99,6 +120,15 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
                     wrong.push(line);
                 }
             }
+            if let Some((least, most)) = unit.opening_deg {
+                let value = world.opening(&breed, &asked);
+                widest = widest.max(value);
+                let line = format!("{id:16} {:9} the ear's opening {value:7.1} of {least} to {most} degrees", unit.id);
+                println!("{line}");
+                if !(least..=most).contains(&value) {
+                    wrong.push(line);
+                }
+            }
             for gap in &unit.gaps {
                 let key = |id: &String| {
                     [Where::Median, Where::Left]
@@ -119,6 +149,7 @@ fn a_unit_moves_its_landmarks_another_way_than_its_row_says() {
         }
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(widest > 70.0, "no ear's opening turns farther than {widest} degrees");
 }
 
 #[test]

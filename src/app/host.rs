@@ -145,6 +145,7 @@ impl Host {
         let recorded = self.turn.record(&mut output, [self.config.width, self.config.height]);
         let cpu_ms = panels_ms + milliseconds(start);
         let head_ms = recorded.head_ms.unwrap_or(self.turn.state.timing.head_ms);
+        let is_unfinished = recorded.is_unfinished;
         let was_shown = self.present(recorded);
         self.turn.state.timing = Timing { head_ms, cpu_ms, total_ms: panels_ms + milliseconds(start) };
 
@@ -154,7 +155,7 @@ impl Host {
             self.title = title;
         }
         let delay = output.viewport_output.get(&egui::ViewportId::ROOT).map(|v| v.repaint_delay);
-        if did_something || !was_shown || delay == Some(Duration::ZERO) {
+        if did_something || is_unfinished || !was_shown || delay == Some(Duration::ZERO) {
             self.request_redraw();
         }
         After { quit, repaint_in: delay.filter(|d| *d < Duration::from_secs(3600) && !d.is_zero()) }

@@ -18,6 +18,7 @@ pub mod panels;
 mod run;
 mod scene;
 mod state;
+mod thumbnails;
 mod turn;
 mod watch;
 
@@ -26,3 +27,4 @@ pub use measure::{Measured, measure};
 pub use measures::Measures;
 pub use run::{AppError, Launch, run};
 pub use state::{Blend, Command, Document, EditorState, Override, Timing};
+pub use thumbnails::Pictures;

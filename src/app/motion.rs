@@ -3,7 +3,7 @@
 
 use crate::anatomy::{Breed, ParamTable};
 use crate::motion::{
-    Act, Activation, Build, Cue, Library, Life, Mixed, MotionError, Overruled, Pose, Stimulus, Temper,
+    Act, Activation, Build, Channel, Cue, Group, Library, Life, Mixed, MotionError, Overruled, Pose, Stimulus, Temper,
 };
 
 /// The motion of one head.
@@ -29,17 +29,37 @@ pub struct Motion {
     time: f64,
     /// The clip that plays.
     clip: Option<usize>,
-    /// The units before one of them was shown alone.
-    before_solo: Option<(usize, Activation)>,
+    /// The unit that is shown alone, and the units and expressions before.
+    before_solo: Option<(usize, Activation, Vec<Mixed>)>,
     /// What the text field has, and what is wrong with it.
     pub typed: String,
+    /// The field has the keyboard.
+    pub is_typing: bool,
     /// What is wrong with what was typed.
     pub mistake: Option<String>,
     overruled: Vec<Overruled>,
+    /// Units as the last pose has them, life apart.
+    shown: Activation,
+}
+
+/// What somebody has asked of the motion: what undo brings back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    units: Activation,
+    direct: Pose,
+    expressions: Vec<Mixed>,
+    clip: Option<usize>,
+    is_alive: bool,
+    follows_pointer: bool,
+    heat: f32,
+    /// Seconds since the motion began.
+    pub(super) time: f64,
 }
 
 /// A frame of the timeline's steps, seconds.
 const FRAME_SECS: f64 = 1.0 / 30.0;
+/// The longest time between two pictures that a clip makes up for: where a processor draws, a picture may take so long.
+const LONGEST_SECS: f64 = 0.3;
 /// The seed of life in a window.
 const SEED: u64 = 1;
 
@@ -63,8 +83,10 @@ impl Motion {
             clip: None,
             before_solo: None,
             typed: String::new(),
+            is_typing: false,
             mistake: None,
             overruled: Vec::new(),
+            shown: Activation::default(),
         })
     }
 
@@ -80,15 +102,72 @@ impl Motion {
         self.write_notation();
     }
 
+    /// What is asked for now.
+    pub fn asked(&self) -> Asked {
+        Asked {
+            units: self.act.units,
+            direct: self.act.direct,
+            expressions: self.act.expressions.clone(),
+            clip: self.clip,
+            is_alive: self.is_alive(),
+            follows_pointer: self.follows_pointer,
+            heat: self.stimulus.heat,
+            time: self.time,
+        }
+    }
+
+    /// Asks for what was asked for before. A clip that plays goes on playing.
+    pub fn restore(&mut self, asked: &Asked) {
+        let goes_on = self.is_playing && self.clip == asked.clip;
+        let (time, was_playing) = (if goes_on { self.time } else { asked.time }, self.is_playing);
+        (self.act.units, self.act.direct) = (asked.units, asked.direct);
+        self.act.expressions.clone_from(&asked.expressions);
+        if self.clip != asked.clip {
+            self.set_clip(asked.clip);
+        }
+        if self.is_alive() != asked.is_alive {
+            self.set_alive(asked.is_alive);
+        }
+        self.follows_pointer = asked.follows_pointer;
+        self.stimulus.heat = asked.heat;
+        self.time = time;
+        self.is_playing = was_playing && (self.clip.is_some() || asked.is_alive);
+        self.before_solo = None;
+        self.write_notation();
+    }
+
+    /// What is added to the pupils' width, millimetres.
+    pub fn pupils(&self) -> f32 {
+        self.act.direct.median(Channel::Pupil)
+    }
+
+    /// Makes pupils wider or narrower.
+    pub fn set_pupils(&mut self, millimetres: f32) {
+        *self.act.direct.channel_mut(Channel::Pupil) = [millimetres; 2];
+    }
+
+    /// How much the eyes turn towards each other, degrees each.
+    pub fn vergence(&self) -> f32 {
+        self.act.direct.channel(Channel::GazeTurn)[1]
+    }
+
+    /// Turns the eyes towards each other.
+    pub fn set_vergence(&mut self, degrees: f32) {
+        *self.act.direct.channel_mut(Channel::GazeTurn) = [-degrees, degrees];
+    }
+
     /// Shows a unit alone at 1; once more brings back what was there before.
     pub fn solo(&mut self, unit: usize) {
         match self.before_solo.take() {
-            Some((shown, before)) if shown == unit => self.act.units = before,
+            Some((shown, units, expressions)) if shown == unit => {
+                (self.act.units, self.act.expressions) = (units, expressions);
+            }
             earlier => {
-                let before = earlier.map_or(self.act.units, |(_, before)| before);
+                let now = (self.act.units, std::mem::take(&mut self.act.expressions));
+                let (units, expressions) = earlier.map_or(now, |(_, units, expressions)| (units, expressions));
                 self.act.units = Activation::default();
                 *self.act.units.get_mut(unit) = [1.0; 2];
-                self.before_solo = Some((unit, before));
+                self.before_solo = Some((unit, units, expressions));
             }
         }
         self.write_notation();
@@ -96,7 +175,7 @@ impl Motion {
 
     /// Everything at rest, and no time.
     pub fn reset(&mut self) {
-        self.act.units = Activation::default();
+        (self.act.units, self.act.direct) = Default::default();
         self.act.expressions.clear();
         self.before_solo = None;
         self.set_clip(None);
@@ -128,6 +207,7 @@ impl Motion {
 
     /// Mixes in an expression as it shows itself best; 0 takes it out.
     pub fn set_weight(&mut self, expression: usize, weight: f32) {
+        self.before_solo = None;
         self.act.expressions.retain(|mixed| mixed.expression != expression);
         if weight > 0.0 {
             self.act.expressions.push(Mixed { expression, weight: weight.min(1.0), start: None });
@@ -192,12 +272,12 @@ impl Motion {
         self.scrub((time + f64::from(frames) * FRAME_SECS).clamp(0.0, length.unwrap_or(f64::MAX)));
     }
 
-    /// Time passes, seconds of a clock; a window that stood still does not make up for more than a tenth.
+    /// Time passes, seconds of a clock; a window that stood still does not make up for more than [`LONGEST_SECS`].
     pub fn pass(&mut self, seconds: f64) {
         if !self.is_playing {
             return;
         }
-        self.time += seconds.clamp(0.0, 0.1) * self.speed;
+        self.time += seconds.clamp(0.0, LONGEST_SECS) * self.speed;
         let Some(clip) = self.clip.and_then(|clip| self.library.clips.get(clip)).filter(|clip| !clip.repeats) else {
             return;
         };
@@ -213,8 +293,23 @@ impl Motion {
     pub fn pose(&mut self, table: &ParamTable, breed: &Breed) -> Pose {
         self.act.build = Build::of(table, &breed.values);
         self.overruled.clear();
+        if self.is_open {
+            let asked = self.act.asked(&self.library, self.time);
+            self.shown = self.library.units.resolve(&asked.units, |_| ());
+        }
         let (stimulus, overruled) = (self.stimulus, &mut self.overruled);
         self.act.pose(&self.library, self.time, |_| stimulus, |told| overruled.push(told))
+    }
+
+    /// Units as the last pose has them while the panel is open: with expressions and clips, after the rules.
+    pub fn shown(&self) -> &Activation {
+        &self.shown
+    }
+
+    /// How many units of a group the last pose has.
+    pub fn n_shown(&self, group: Group) -> usize {
+        let units = self.library.units.units.iter().enumerate();
+        units.filter(|(number, unit)| unit.group == group && self.shown.most(*number) > 0.005).count()
     }
 
     /// What did not come as it was asked for in the last pose.
@@ -235,13 +330,15 @@ mod tests {
     fn solo_does_not_bring_back_what_was_there() {
         let mut motion = motion();
         motion.set_unit(3, [0.5, 0.2]);
+        motion.set_weight(4, 0.5);
         let before = *motion.units();
         motion.solo(1);
         assert_eq!((motion.units().get(1), motion.units().get(3)), ([1.0; 2], [0.0; 2]));
         motion.solo(2);
         assert_eq!((motion.units().get(1), motion.units().get(2)), ([0.0; 2], [1.0; 2]));
+        assert_eq!(motion.weight(4), 0.0, "alone is without expressions");
         motion.solo(2);
-        assert_eq!(*motion.units(), before);
+        assert_eq!((*motion.units(), motion.weight(4)), (before, 0.5));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The picture inside the window: drawn when something in it has changed, and never twice.
 
 use crate::frame::{Frame, Revisions};
-use crate::render::{Drawing, Gpu, Painter, Quality, ShaderError, ShaderSources, Targets};
+use crate::render::{Aside, Drawing, Gpu, Painter, Quality, ShaderError, ShaderSources, Targets};
 
 /// Painter, targets, and the texture under which egui knows the picture.
 pub(super) struct Scene {
@@ -63,5 +63,18 @@ impl Scene {
             self.painter.draw(&gpu.device, &gpu.queue, encoder, &self.targets, frame, drawing);
             self.drawn = Some(now);
         }
+    }
+
+    /// Records a picture of another head into other targets; to be submitted before this one is drawn again.
+    pub(super) fn draw_aside(
+        &mut self,
+        gpu: &Gpu,
+        aside: &mut Aside,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &Frame<'_>,
+        drawing: &Drawing,
+    ) {
+        self.painter.draw_aside(aside, &gpu.device, &gpu.queue, encoder, targets, frame, drawing);
     }
 }

@@ -3,7 +3,8 @@
 use super::chance::Chance;
 use super::history::History;
 use super::measures::Measures;
-use super::motion::Motion;
+use super::motion::{Asked, Motion};
+use super::thumbnails::Pictures;
 use crate::anatomy::{Breed, ParamTable};
 use crate::coat::Condition;
 use crate::frame::Layers;
@@ -95,6 +96,13 @@ impl Document {
     }
 }
 
+/// What undo goes back by: the dog and what it was asked to do.
+#[derive(Clone, Debug, PartialEq)]
+struct Step {
+    document: Document,
+    asked: Asked,
+}
+
 /// What the state cannot do by itself: it needs files, a device, or a dialog.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -148,8 +156,8 @@ pub struct EditorState {
     pub table: Arc<ParamTable>,
     /// The list.
     pub breeds: Vec<Breed>,
-    document: Document,
-    history: History<Document>,
+    present: Step,
+    history: History<Step>,
     shown: Breed,
     unchanged: Breed,
     level: u32,
@@ -179,6 +187,8 @@ pub struct EditorState {
     pub measures: Measures,
     /// What the head does.
     pub motion: Motion,
+    /// This dog's expressions, once there are pictures of them.
+    pub pictures: Option<Pictures>,
     /// What is looked for among the measures.
     pub search: String,
     /// Show only measures that were changed.
@@ -206,10 +216,11 @@ impl EditorState {
     pub fn new(table: Arc<ParamTable>, breeds: Vec<Breed>, document: Document) -> Self {
         let (shown, unchanged) = (document.breed(&table), document.blended(&table));
         let typed_path = typed(&document);
+        let motion = Motion::new().expect("the program's own tables, which a test reads");
         Self {
             table,
             breeds,
-            document,
+            present: Step { document, asked: motion.asked() },
             history: History::default(),
             shown,
             unchanged,
@@ -226,7 +237,8 @@ impl EditorState {
             background: Preset::default().background(),
             chance: Chance::default(),
             measures: Measures::default(),
-            motion: Motion::new().expect("the program's own tables, which a test reads"),
+            motion,
+            pictures: None,
             search: String::new(),
             only_changed: false,
             shows_keys: false,
@@ -242,7 +254,7 @@ impl EditorState {
 
     /// What is edited.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.present.document
     }
 
     /// The breed that is shown.
@@ -267,25 +279,25 @@ impl EditorState {
 
     /// The window's title, with a mark for unsaved changes.
     pub fn title(&self) -> String {
-        let mark = if self.document.is_changed() { "• " } else { "" };
+        let mark = if self.present.document.is_changed() { "• " } else { "" };
         format!("{mark}{} — Londra", self.shown.label)
     }
 
     // ---- changes, each one step to undo ----
 
     fn change(&mut self, change: impl FnOnce(&mut Document)) {
-        let mut next = self.document.clone();
+        let mut next = self.present.document.clone();
         change(&mut next);
-        if next != self.document {
-            self.history.before_change(&self.document);
-            self.document = next;
+        if next != self.present.document {
+            self.history.before_change(&self.present);
+            self.present.document = next;
             self.resolve();
         }
     }
 
     fn resolve(&mut self) {
-        self.unchanged = self.document.blended(&self.table);
-        self.shown = self.document.breed(&self.table);
+        self.unchanged = self.present.document.blended(&self.table);
+        self.shown = self.present.document.breed(&self.table);
     }
 
     /// Sets a measure (row, SI).
@@ -328,7 +340,7 @@ impl EditorState {
 
     /// Whether a measure was changed by hand.
     pub fn is_overridden(&self, index: usize) -> bool {
-        self.document.overrides.contains_key(&index)
+        self.present.document.overrides.contains_key(&index)
     }
 
     /// Shows a breed of the list, as it is.
@@ -359,7 +371,7 @@ impl EditorState {
 
     /// Where unsaved changes will be when another document takes the place of this one.
     fn way_back(&self) -> Option<String> {
-        let is_changed = self.document.is_changed();
+        let is_changed = self.present.document.is_changed();
         is_changed.then(|| format!("undo (Ctrl+Z) brings back {} with its unsaved changes", self.shown.label))
     }
 
@@ -398,28 +410,50 @@ impl EditorState {
 
     /// What follows is one step, until [`EditorState::end_gesture`].
     pub fn begin_gesture(&mut self) {
-        self.history.begin_gesture(&self.document);
+        self.history.begin_gesture(&self.present);
     }
 
     /// Ends what [`EditorState::begin_gesture`] began, if anything.
     pub fn end_gesture(&mut self) {
-        self.history.end_gesture(&self.document);
+        self.history.end_gesture(&self.present);
     }
 
     /// Goes one step back.
     pub fn undo(&mut self) {
-        if self.history.undo(&mut self.document) {
-            self.typed_path = typed(&self.document);
-            self.resolve();
+        if self.history.undo(&mut self.present) {
+            self.went_through_history();
         }
     }
 
     /// Goes one step forward again.
     pub fn redo(&mut self) {
-        if self.history.redo(&mut self.document) {
-            self.typed_path = typed(&self.document);
-            self.resolve();
+        if self.history.redo(&mut self.present) {
+            self.went_through_history();
         }
+    }
+
+    fn went_through_history(&mut self) {
+        self.typed_path = typed(&self.present.document);
+        self.resolve();
+        self.motion.restore(&self.present.asked);
+    }
+
+    /// Makes a step of what was asked of the motion since the last time; `is_held`: while a hand is still at it, all is one.
+    pub fn note_motion(&mut self, is_held: bool) {
+        let now = self.motion.asked();
+        if now != self.present.asked {
+            if is_held {
+                self.history.begin_gesture(&self.present);
+            }
+            self.history.before_change(&self.present);
+            self.present.asked = now;
+        }
+    }
+
+    /// Time passes, which nobody has asked for and no step brings back; seconds.
+    pub fn pass(&mut self, seconds: f64) {
+        self.motion.pass(seconds);
+        self.present.asked.time = self.motion.asked().time;
     }
 
     /// Whether there is a step back.
@@ -446,23 +480,23 @@ impl EditorState {
     /// A breed has changed on disk: it takes the place of the one with its id, in the list and, as the base, in what
     /// is edited. Measures changed by hand stay on top. Returns whether anything is different now.
     pub fn breed_reloaded(&mut self, breed: Breed, path: &std::path::Path) -> bool {
-        let before = (self.breeds.clone(), self.document.clone());
+        let before = (self.breeds.clone(), self.present.document.clone());
         if let Some(known) = self.breeds.iter_mut().find(|b| b.id == breed.id) {
             *known = breed.clone();
             self.measures.forget_breeds();
         }
-        let is_open = match &self.document.path {
+        let is_open = match &self.present.document.path {
             Some(open) => open == path,
-            None => self.document.base.id == breed.id,
+            None => self.present.document.base.id == breed.id,
         };
-        if let Some(blend) = self.document.blend.as_mut().filter(|b| b.partner.id == breed.id) {
+        if let Some(blend) = self.present.document.blend.as_mut().filter(|b| b.partner.id == breed.id) {
             blend.partner = breed.clone();
         }
         if is_open {
-            self.document.base = breed;
+            self.present.document.base = breed;
         }
         self.resolve();
-        before != (self.breeds.clone(), self.document.clone())
+        before != (self.breeds.clone(), self.present.document.clone())
     }
 
     /// The table has changed on disk: breeds loaded with it take the place of the old ones.
@@ -473,7 +507,7 @@ impl EditorState {
         self.measures.forget_table();
         // Steps of the old table count other rows.
         self.history = History::default();
-        self.document = document;
+        self.present.document = document;
         self.resolve();
     }
 
@@ -489,7 +523,7 @@ impl EditorState {
 
     /// Leaves, or asks first when there are unsaved changes.
     pub fn request_quit(&mut self) {
-        if self.document.is_changed() {
+        if self.present.document.is_changed() {
             self.asks_to_quit = true;
         } else {
             self.commands.push_back(Command::Quit);
@@ -536,6 +570,8 @@ impl EditorState {
     pub fn toggle_motion(&mut self) {
         self.motion.is_open = !self.motion.is_open;
         self.layers = self.layers.with_open_mouth();
+        // The panel takes a part of the picture: all of the head is to be seen in the rest.
+        self.wants_fit = true;
     }
 
     /// What the head does at this moment.

@@ -6,6 +6,7 @@ use super::panels;
 use super::run::Launch;
 use super::scene::Scene;
 use super::state::EditorState;
+use super::thumbnails::Thumbnails;
 use crate::frame::{Frame, Pipeline, PipelineError};
 use crate::render::{Drawing, Gpu, Samples, ShaderError, ShaderSources, Shading};
 use crate::rig::{Rig, RigError};
@@ -41,6 +42,8 @@ pub(super) struct Turn {
     pub(super) pipeline: Pipeline,
     pub(super) scene: Scene,
     renderer: egui_wgpu::Renderer,
+    /// Once the panel that has them is shown.
+    thumbnails: Option<Thumbnails>,
     /// Of the picture, pixels.
     pub(super) picture_size: [u32; 2],
     /// The revision of the head's shape that was drawn last.
@@ -56,6 +59,8 @@ pub(super) struct Recorded {
     free: Vec<egui::TextureId>,
     /// The head, where it has moved: from values to vertices, milliseconds.
     pub(super) head_ms: Option<f32>,
+    /// Something is left for a turn in which nothing else goes on.
+    pub(super) is_unfinished: bool,
 }
 
 impl Turn {
@@ -77,7 +82,7 @@ impl Turn {
         let scene = Scene::new(&gpu, &mut renderer, sources)?;
         let rig = Arc::new(Rig::embedded(&state.table)?);
         let pipeline = Pipeline::new(rig, state.level())?;
-        Ok(Self { gpu, context, state, pipeline, scene, renderer, picture_size: [16, 16], shape: 0 })
+        Ok(Self { gpu, context, state, pipeline, scene, renderer, thumbnails: None, picture_size: [16, 16], shape: 0 })
     }
 
     /// The panels change the state.
@@ -93,6 +98,7 @@ impl Turn {
 
     /// The head follows the state, goes to the graphics card, and everything is recorded. `size`: of the window, pixels.
     pub(super) fn record(&mut self, output: &mut egui::FullOutput, size: [u32; 2]) -> Recorded {
+        let is_unfinished = self.draw_thumbnail();
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let scale = output.pixels_per_point;
         let start = Instant::now();
@@ -112,8 +118,9 @@ impl Turn {
         follow(&mut self.state, &frame, self.picture_size);
 
         let mut encoder = device.create_command_encoder(&Default::default());
-        // A processor that draws keeps up with the hand at half the size; the full picture follows.
-        let is_rough = self.gpu.is_software() && self.context.input(|i| i.pointer.any_down());
+        // A processor that draws keeps up with the hand, and with time, at half the size; the full picture follows.
+        let is_moving = self.state.motion.is_playing || self.context.input(|i| i.pointer.any_down());
+        let is_rough = self.gpu.is_software() && is_moving;
         let picture = self.picture_size.map(|s| if is_rough { s.div_ceil(2) } else { s });
         let drawing = drawing(&self.state, scale);
         self.scene.draw(&self.gpu, &mut self.renderer, &mut encoder, &frame, &drawing, picture);
@@ -125,7 +132,35 @@ impl Turn {
         let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale };
         let buffers = self.renderer.update_buffers(device, queue, &mut encoder, &jobs, &screen);
         let free = output.textures_delta.free.drain().collect();
-        Recorded { encoder, buffers, jobs, screen, free, head_ms }
+        Recorded { encoder, buffers, jobs, screen, free, head_ms, is_unfinished }
+    }
+
+    /// Draws one small picture for the panel of motion while nothing else goes on. Returns whether there are more.
+    fn draw_thumbnail(&mut self) -> bool {
+        let motion = &self.state.motion;
+        let is_busy = motion.is_playing || self.context.input(|i| i.pointer.any_down());
+        if !motion.is_open || is_busy {
+            return false;
+        }
+        let rig = self.pipeline.rig();
+        let thumbnails = match self.thumbnails.take().filter(|t| t.is_of(rig)) {
+            Some(thumbnails) => Ok(thumbnails),
+            None => Thumbnails::new(&self.gpu, &mut self.renderer, rig.clone(), motion.library.expressions.len()),
+        };
+        match thumbnails {
+            Ok(mut thumbnails) => {
+                let breed = self.state.breed();
+                let has_more = thumbnails.step(&self.gpu, &mut self.scene, breed, &motion.library);
+                let is_new = self.state.pictures != Some(thumbnails.pictures());
+                self.state.pictures = Some(thumbnails.pictures());
+                self.thumbnails = Some(thumbnails);
+                has_more || is_new
+            }
+            Err(e) => {
+                self.state.complain(e.to_string());
+                false
+            }
+        }
     }
 
     /// Paints the panels over everything and hands it to the driver; without a target the uploads only.

@@ -575,11 +575,14 @@ pub(super) struct Measure {
     londra landmarks --breed pug\n  \
     londra landmarks --breed labrador --blend pug=0.3 --json\n  \
     londra landmarks --breed borzoi --view front --size 800x600\n  \
+    londra landmarks --breed labrador --unit AU27=1 --json\n  \
     londra landmarks --breed labrador --whiskers --json"
 )]
 pub(super) struct Landmarks {
     #[command(flatten)]
     pub subject: Subject,
+    #[command(flatten)]
+    pub motion: Motion,
     /// Tell pixels too, in this view: as for render
     #[arg(long, value_name = "front|side|three-quarter|top|portrait|AZIMUTH,ELEVATION", allow_hyphen_values = true)]
     pub view: Option<Direction>,

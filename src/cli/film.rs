@@ -203,8 +203,11 @@ fn ffmpeg(path: &Path, [width, height]: [u32; 2], fps: u32) -> Result<Child, Fai
     command
         .args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"])
         .args(["-s", &format!("{width}x{height}"), "-r", &fps.to_string(), "-i", "-"])
-        // Most players take even sizes and this form of colours alone.
-        .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"])
+        // Most players take even sizes and this form of colours alone; which form it is, they only guess unless they are told.
+        .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-pix_fmt", "yuv420p"])
+        .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"])
+        // Fine enough for fur, and a film that plays while it loads.
+        .args(["-crf", "18", "-movflags", "+faststart"])
         .arg(path)
         .stdin(Stdio::piped())
         .stdout(Stdio::null())

@@ -1,6 +1,7 @@
 //! `londra landmarks`.
 
-use super::args::Landmarks as Args;
+use super::args::{Landmarks as Args, Lids};
+use super::motion::Director;
 use super::rigs::Rigs;
 use super::{Failure, output, picture, subject};
 use crate::frame::Frame;
@@ -16,13 +17,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let breed = subject::breed(&rigs, &args.subject.breed, &args.subject.changes)?;
     let mut pipeline = subject::pipeline(&rigs, &args.detail)?;
     let rig = pipeline.rig().clone();
-    let frame = pipeline.update(&breed);
+    let director = Director::new(&args.motion, Lids::default())?;
+    director.tell_overruled();
+    pipeline.set_pose(director.pose(&rigs, &breed));
+    if args.motion.is_asked_for() {
+        // As a picture of it has.
+        pipeline.set_layers(pipeline.layers().with_open_mouth()).map_err(Failure::work)?;
+    }
+    pipeline.update(&breed);
+    let (places, frame) = (pipeline.places(), pipeline.frame());
     if args.whiskers {
         return whiskers(frame.whiskers, args.report.json);
     }
     let bones = Bones::embedded().map_err(Failure::work)?;
     let mut landmarks = skin_landmarks(&rig, &breed.values, &frame);
-    landmarks.extend(bone_landmarks(&rig, &bones, &breed.values));
+    landmarks.extend(bone_landmarks(&rig, &bones, &breed.values, &places));
     let seen: Vec<Option<Seen>> = match args.view {
         Some(view) => {
             let camera = picture::camera(&frame, view, args.pitch, args.lens.unwrap_or_default(), args.size);

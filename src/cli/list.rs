@@ -123,7 +123,8 @@ fn unit_as_json(library: &Library, number: usize, unit: &Unit) -> Value {
         "id": unit.id, "label": unit.label, "name": unit.name, "group": unit.group, "sides": unit.sides,
         "drives": drives.collect::<Vec<_>>(), "hz": unit.cycle.as_ref().map(|c| c.hz),
         "clip": Some(&unit.clip).filter(|clip| !clip.is_empty()), "landmarks": landmarks.collect::<Vec<_>>(),
-        "gaps": gaps.collect::<Vec<_>>(), "criterion": unit.criterion, "rules": rules.collect::<Vec<_>>(),
+        "gaps": gaps.collect::<Vec<_>>(),
+        "opening": unit.opening_deg.map(|(least, most)| json!({ "least_deg": least, "most_deg": most })), "criterion": unit.criterion, "rules": rules.collect::<Vec<_>>(),
         "lacks": unit.lacks, "source": unit.source, "status": unit.status,
     })
 }

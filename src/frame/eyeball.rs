@@ -15,13 +15,15 @@ pub struct Eyeball {
     pub eye: Eye,
     /// Colour of the iris, linear.
     pub iris: Vec3,
+    /// How much wider the pupil is than at rest, as a part of the iris' width.
+    pub widened: f32,
     /// The inner margins of the lids, one after the other around the opening: directions from the centre in the eye's own
     /// axes (x, y, z), projected to (x, y) / (1 + z).
     pub lids: [Vec2; 12],
 }
 
 impl Eyeball {
-    /// Where the pupil ends, as a part of the way from the axis of gaze to the limbus.
+    /// Where the pupil ends at rest, as a part of the way from the axis of gaze to the limbus.
     pub const PUPIL: f32 = PUPIL / IRIS;
 
     /// What a place of the eyeball's texture (0 to 1, from the top left) shows: the unit direction from the centre in the eye's
@@ -36,14 +38,14 @@ impl Eyeball {
         (vec3(sin * cos_turn, sin * sin_turn, cos), angle / limbus)
     }
 
-    /// `margins`: of the lids, metres.
-    pub(super) fn new(eye: Eye, iris: Vec3, margins: [Vec3; 12]) -> Self {
+    /// `widened`: see [`widened`]; `margins`: of the lids, metres.
+    pub(super) fn new(eye: Eye, iris: Vec3, widened: f32, margins: [Vec3; 12]) -> Self {
         let lids = margins.map(|p| {
             let direction = (p - eye.centre).normalize_or(eye.axes[2]);
             let [a, b, g] = eye.axes.map(|axis| axis.dot(direction));
             vec2(a, b) / (1.0 + g).max(0.1)
         });
-        Self { eye, iris, lids }
+        Self { eye, iris, widened, lids }
     }
 }
 
@@ -55,6 +57,24 @@ const RINGS: [f32; 21] = [
     0.0, 8.0, 17.0, PUPIL, PUPIL, 29.0, 33.0, 38.0, 42.5, 46.0, 53.0, IRIS, IRIS, 64.0, 69.0, 75.0, 84.0, 100.0, 120.0,
     145.0, 180.0,
 ];
+
+/// Width of the iris that the channel of the pupils is told for, millimetres.
+const IRIS_MM: f32 = 17.0;
+
+/// How much wider a pupil is than at rest, as a part of the iris' width; `millimetres`: of [`crate::motion::Channel::Pupil`].
+pub(super) fn widened(millimetres: f32) -> f32 {
+    millimetres / IRIS_MM
+}
+
+/// Where the tissue of a ring lies whose pupil is so much wider: pressed together or drawn out, and nothing beyond the limbus.
+fn with_pupil(degrees: f32, widened: f32) -> f32 {
+    let pupil = PUPIL + IRIS * widened;
+    match degrees {
+        inside if inside <= PUPIL => inside * (pupil / PUPIL),
+        iris if iris < IRIS => IRIS - (IRIS - iris) * ((IRIS - pupil) / (IRIS - PUPIL)),
+        beyond => beyond,
+    }
+}
 
 /// How far the pole behind lies from the middle of the texture.
 const TEXTURE_RADIUS: f32 = 0.49;
@@ -147,8 +167,8 @@ pub(super) fn colours(iris: Vec3, out: &mut [Vec3]) {
     }
 }
 
-/// Positions and normals (`positions`, `normals`: [`N_VERTICES`]).
-pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
+/// Positions and normals (`positions`, `normals`: [`N_VERTICES`]); `widened`: the pupil, see [`widened`].
+pub(super) fn place(eye: &Eye, widened: f32, positions: &mut [Vec3], normals: &mut [Vec3]) {
     let [a, b, g] = eye.axes;
     let limbus = eye.limbus();
     let half_turn = core::f32::consts::PI;
@@ -158,6 +178,7 @@ pub(super) fn place(eye: &Eye, positions: &mut [Vec3], normals: &mut [Vec3]) {
         let side = a * cos_turn + b * sin_turn;
         let limbus = Eye::limbus_at(limbus, sin_turn);
         for (i, &degrees) in RINGS.iter().enumerate() {
+            let degrees = with_pupil(degrees, widened);
             let t = degrees / IRIS;
             let angle = angle(degrees, limbus);
             let (sin, cos) = (ops::sin(angle), ops::cos(angle));

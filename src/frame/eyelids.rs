@@ -43,12 +43,12 @@ impl EyelidParts {
         Ok(Self { evaluator: Evaluator::new(&third.plan), margins, control: Vec::new(), third, tears })
     }
 
-    /// `eyes`: left and right, where they are; `skin`: positions of the refined skin; `head`: where the skull is; `alike`:
+    /// `eyes`: left and right, where they are; `closed`: how far the lids are shut, 0 to 1, left and right; `skin`: positions of the refined skin; `head`: where the skull is; `alike`:
     /// whether both sides are mirror images.
     pub(super) fn shape(
         &mut self,
         proportions: &Proportions,
-        eyes: &[Eye; 2],
+        (eyes, closed): (&[Eye; 2], [f32; 2]),
         skin: &[Vec3],
         head: &Rigid,
         alike: bool,
@@ -72,7 +72,7 @@ impl EyelidParts {
         let sides: &[usize] = if alike { &[0] } else { &[1, 0] };
         for &side in sides {
             let eye = if side == 0 { in_head(&eyes[0]) } else { in_head(&eyes[1]).mirrored() };
-            eyelids::third_eyelid(proportions, &eye, control);
+            eyelids::third_eyelid(proportions, &eye, closed[side], control);
             third.left(evaluator, control);
             eyelids::tear_line(&eye, &margin(side), control);
             tears.left(evaluator, control);

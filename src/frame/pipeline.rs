@@ -21,8 +21,8 @@ use super::{StageHashes, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Groom, Root};
 use crate::math::fnv::Fnv64;
-use crate::motion::Pose;
-use crate::rig::{ControlError, Deformed, Rig, deform};
+use crate::motion::{Channel, Pose};
+use crate::rig::{ControlError, Deformed, Places, Rig, deform};
 use crate::subdiv::{Evaluator, FaceVaryingError, Plan, PlanError, PlanOptions, Scheme, evaluate_once};
 use glam::Vec3;
 use std::sync::Arc;
@@ -73,6 +73,8 @@ pub struct Pipeline {
     eyelids: EyelidParts,
     /// Left and right.
     eyeballs: [Eyeball; 2],
+    /// How much wider the pupils are than at rest, parts of the iris' width.
+    widened: [f32; 2],
     whiskers: WhiskerParts,
     layers: Layers,
     /// Whether parts have texture coordinates.
@@ -135,6 +137,7 @@ impl Pipeline {
             parts,
             eyelids: EyelidParts::new(&rig)?,
             eyeballs: Default::default(),
+            widened: [0.0; 2],
             whiskers: WhiskerParts::new(&rig, &plan)?,
             layers: Layers::default(),
             uv: false,
@@ -331,8 +334,14 @@ impl Pipeline {
         let skin = &self.parts[0].positions;
         let sides = [inner.map(usize::from), inner.map(|v| self.rig.image(usize::from(v)))];
         let [left, right] = self.deformed.eyes;
-        [(left, sides[0]), (right, sides[1])]
-            .map(|(eye, margins)| Eyeball::new(eye, look.iris, margins.map(|v| skin[v])))
+        let widened = self.widened;
+        [(left, widened[0], sides[0]), (right, widened[1], sides[1])]
+            .map(|(eye, widened, margins)| Eyeball::new(eye, look.iris, widened, margins.map(|v| skin[v])))
+    }
+
+    /// Where the rigid parts of the last frame are.
+    pub fn places(&self) -> Places {
+        self.deformed.places
     }
 
     /// The last frame again.
@@ -391,14 +400,17 @@ impl Pipeline {
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
         place_cap(&self.plan, &skin.positions, cap);
-        for (eye, part) in self.deformed.eyes.iter().zip([left, right]) {
-            eyeball::place(eye, &mut part.positions, &mut part.normals);
+        let possible = self.rig.posing().possible(&self.pose);
+        self.widened = possible.channel(Channel::Pupil).map(eyeball::widened);
+        for ((eye, &widened), part) in self.deformed.eyes.iter().zip(&self.widened).zip([left, right]) {
+            eyeball::place(eye, widened, &mut part.positions, &mut part.normals);
         }
         let (measures, proportions) = (self.rig.measures(values), self.rig.proportions(values));
         self.youth = self.rig.youth(values);
         let alike = self.pose.is_rest();
         let places = self.deformed.places;
-        self.eyelids.shape(&proportions, &self.deformed.eyes, &skin.positions, &places.head, alike);
+        let eyes = (&self.deformed.eyes, possible.channel(Channel::LidClosed));
+        self.eyelids.shape(&proportions, eyes, &skin.positions, &places.head, alike);
         self.whiskers.shape(skin, proportions.scale, alike);
         let Layers { muscles, bone, teeth, mouth, tongue, .. } = self.layers;
         let head = Some((&measures, &proportions)).filter(|_| is_other);
@@ -411,8 +423,7 @@ impl Pipeline {
         if let Some(inside) = self.mouth.as_mut().filter(|_| mouth || tongue) {
             let of_head = self.rig.of_head(values, &mut self.deformed);
             let size = (of_head.unit, of_head.front);
-            let pose = self.rig.posing().possible(&self.pose);
-            inside.shape(head, &pose, &places, size);
+            inside.shape(head, &possible, &places, size);
         }
     }
 

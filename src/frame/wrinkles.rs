@@ -11,7 +11,7 @@ use glam::{Mat3, Vec3, vec3};
 /// valley where skin is pressed by a tenth, metres: nose, brow, cheek.
 const FOLDS: [(Vec3, f32, f32); 3] = [
     (vec3(-0.25, 0.35, -0.90), 0.0085, 0.0012),
-    (vec3(-0.30, 0.75, -0.59), 0.0095, 0.0012),
+    (vec3(-0.30, 0.75, -0.59), 0.0080, 0.0026),
     (vec3(0.15, 0.10, -0.98), 0.0105, 0.0010),
 ];
 /// Highest ridge for the way between two.

@@ -1,9 +1,9 @@
 //! Named points of a made head, in its frame.
 
 use crate::frame::Frame;
-use crate::rig::bone::{Bones, BonesOfHead, LANDMARKS};
+use crate::rig::bone::{BoneMesh, Bones, BonesOfHead, LANDMARKS};
 use crate::rig::mouth::TONGUE_TIP;
-use crate::rig::{Deformed, Eye, Place, Rig, deform};
+use crate::rig::{Deformed, Eye, Place, Places, Rig, deform};
 use glam::Vec3;
 
 /// On which side of the head a landmark lies. Left is the dog's.
@@ -44,15 +44,19 @@ pub struct Landmark {
 }
 
 /// The landmarks of the bone by id, the left one before the right: vertices of skull and mandible, and constructed points
-/// such as the condyle's centre. `values`: SI, one for each row of the rig's table.
-pub fn bone_landmarks(rig: &Rig, bones: &Bones, values: &[f32]) -> Vec<Landmark> {
+/// such as the condyle's centre. `values`: SI, one for each row of the rig's table; `places`: where skull and mandible are
+/// ([`crate::frame::Pipeline::places`], or the default at rest).
+pub fn bone_landmarks(rig: &Rig, bones: &Bones, values: &[f32], places: &Places) -> Vec<Landmark> {
     let mut of_head = BonesOfHead::default();
     bones.shape(&rig.measures(values), &rig.proportions(values), &mut of_head);
     let mut all = Vec::new();
     // Those of the list that are only there to place teeth have another letter.
     for landmark in LANDMARKS.iter().filter(|l| l.id.starts_with('S')) {
         let Some(position) = bones.landmark(landmark.id, &of_head) else { continue };
+        // What is no vertex belongs to the skull: the condyle's centre is that of its joint.
+        let place = if landmark.on == Some(BoneMesh::Mandible) { &places.mandible } else { &places.head };
         let mut add = |side: Side, position: Vec3| {
+            let position = place.point(position);
             let (id, name) = (landmark.id.to_owned(), landmark.name.to_owned());
             all.push(Landmark { id, name, side, layer: "bone", position });
         };

@@ -20,6 +20,8 @@ pub struct Mixed {
 pub struct Act {
     /// Units that somebody asks for.
     pub units: Activation,
+    /// Channels that somebody moves beside them.
+    pub direct: Pose,
     /// Expressions, which are added to them.
     pub expressions: Vec<Mixed>,
     /// Clips, which are laid over both.
@@ -38,6 +40,7 @@ impl Act {
     pub fn new(build: Build) -> Self {
         Self {
             units: Activation::default(),
+            direct: Pose::default(),
             expressions: Vec::new(),
             player: Player::default(),
             life: None,
@@ -49,11 +52,11 @@ impl Act {
 
     /// What is asked for at a time, in seconds, life excepted.
     pub fn asked(&self, library: &Library, time: f64) -> Moment {
-        let mut moment = Moment::from(self.units);
+        let mut moment = Moment { units: self.units, direct: self.direct };
         for mixed in &self.expressions {
             if let Some(expression) = library.expressions.get(mixed.expression) {
-                let units = mixed.start.map_or_else(|| expression.still(), |start| expression.at(time - start));
-                moment.units.add(&units, mixed.weight);
+                let since = mixed.start.map_or(expression.still_s, |start| time - start);
+                moment.add(&expression.moment(since), mixed.weight);
             }
         }
         self.player.apply(library, time, &mut moment);

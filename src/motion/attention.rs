@@ -22,6 +22,9 @@ const HEAD_SECS: f64 = 0.22;
 /// Ears turn within 100 ms, and lose interest in a sound that goes on, or is over, within seconds.
 const EAR_SECS: f64 = 0.06;
 const BORED_SECS: f64 = 2.5;
+/// How much wider pupils get at something interesting, millimetres, and how fast (constructed: they take some tenths of a second).
+const WIDENED: f32 = 1.5;
+const PUPIL_SECS: f64 = 0.25;
 /// How far the head goes by itself, degrees left or right, down, and up.
 const HEAD_RANGE: [[f32; 2]; 2] = [[-70.0, 70.0], [-45.0, 45.0]];
 const EYE_RANGE: [[f32; 2]; 2] = [[-25.0, 25.0], [-22.0, 18.0]];
@@ -39,6 +42,8 @@ pub struct Attention {
     interest: f32,
     heard: Option<f32>,
     heat: f32,
+    /// How much wider the pupils are, millimetres.
+    pupils: f32,
 }
 
 impl Attention {
@@ -59,6 +64,7 @@ impl Attention {
         }
         self.listen(stimulus.sound.filter(|s| s.is_finite()));
         approach(&mut self.heat, stimulus.heat.clamp(0.0, 1.0), 1.0);
+        approach(&mut self.pupils, WIDENED * self.interest, PUPIL_SECS);
     }
 
     fn listen(&mut self, sound: Option<f32>) {
@@ -107,6 +113,7 @@ impl Attention {
         add(Channel::GazeTurn, [self.eyes[0]; 2]);
         add(Channel::GazeLift, [self.eyes[1]; 2]);
         add(Channel::EarTurn, self.ears);
+        add(Channel::Pupil, [self.pupils; 2]);
         if let Some(unit) = units.index_of("EAD101") {
             for now in moment.units.get_mut(unit) {
                 *now = now.max(0.8 * self.forward);

@@ -42,7 +42,7 @@ channels! {
     GazeTurn "gaze_turn_deg" false;
     /// An eye looks up.
     GazeLift "gaze_lift_deg" false;
-    /// The pupil's diameter.
+    /// The pupils' diameter, beyond that at rest: both are alike, as light in one eye narrows both.
     Pupil "pupil_mm" true;
     /// A lid closes: 0 is open as at rest, 1 shut.
     LidClosed "lid_closed" false;

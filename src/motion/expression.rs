@@ -1,7 +1,7 @@
 //! Expressions: recipes of units, each with its own course in time. `rigs/expressions/*.ron` as a type.
 
 use super::ease::envelope;
-use super::{Activation, MotionError, Side, Sides, UnitTable, unit};
+use super::{Activation, Channel, Moment, MotionError, Pose, Side, Sides, UnitTable, unit};
 use serde::Deserialize;
 
 /// A recipe.
@@ -15,6 +15,27 @@ pub struct Expression {
     pub still_s: f64,
     /// What it is made of.
     pub parts: Vec<Part>,
+    /// What no unit moves: pupils.
+    pub beside: Vec<Beside>,
+}
+
+/// A channel of a recipe, on both sides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// Which.
+    pub channel: Channel,
+    /// How far it goes, in the unit of its id.
+    pub value: f32,
+    /// When it begins, seconds from the start of the expression.
+    pub start_s: f64,
+    /// How long it takes to come.
+    pub onset_s: f64,
+    /// How long it stays.
+    pub hold_s: f64,
+    /// How long it takes to go.
+    pub offset_s: f64,
+    /// Where that is known from.
+    pub evidence: String,
 }
 
 /// A unit of a recipe.
@@ -52,6 +73,21 @@ struct File {
     label: String,
     still_s: f64,
     units: Vec<Row>,
+    #[serde(default)]
+    channels: Vec<BesideRow>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BesideRow {
+    channel: Channel,
+    value: f32,
+    #[serde(default)]
+    start_s: f64,
+    onset_s: f64,
+    hold_s: f64,
+    offset_s: f64,
+    evidence: String,
 }
 
 #[derive(Deserialize)]
@@ -87,7 +123,8 @@ impl Expression {
         let read: File = ron::from_str(text).map_err(|e| MotionError::syntax(file, e))?;
         MotionError::check_version(file, read.version)?;
         let parts = read.units.into_iter().map(|row| row.read(file, units)).collect::<Result<Vec<_>, _>>()?;
-        let expression = Self { id: read.id, label: read.label, still_s: read.still_s, parts };
+        let beside = read.channels.into_iter().map(|row| row.read(file)).collect::<Result<Vec<_>, _>>()?;
+        let expression = Self { id: read.id, label: read.label, still_s: read.still_s, parts, beside };
         if !(0.0..=expression.seconds()).contains(&expression.still_s) {
             let problem = format!("still_s is {}, allowed 0 to {}", expression.still_s, expression.seconds());
             return Err(MotionError::row(file, &expression.id, problem));
@@ -97,7 +134,7 @@ impl Expression {
 
     /// How long it takes, seconds.
     pub fn seconds(&self) -> f64 {
-        self.parts.iter().map(Part::end_s).fold(0.0, f64::max)
+        self.parts.iter().map(Part::end_s).chain(self.beside.iter().map(Beside::end_s)).fold(0.0, f64::max)
     }
 
     /// Its units, seconds after its start; nothing before and after.
@@ -120,6 +157,21 @@ impl Expression {
     pub fn still(&self) -> Activation {
         self.at(self.still_s)
     }
+
+    /// What it moves beside units, seconds after its start.
+    pub fn beside_at(&self, time: f64) -> Pose {
+        let mut pose = Pose::default();
+        for beside in &self.beside {
+            let part = envelope(time - beside.start_s, beside.onset_s, beside.hold_s, beside.offset_s);
+            pose.channel_mut(beside.channel).iter_mut().for_each(|now| *now += beside.value * part);
+        }
+        pose
+    }
+
+    /// All that it asks for, seconds after its start.
+    pub fn moment(&self, time: f64) -> Moment {
+        Moment { units: self.at(time), direct: self.beside_at(time) }
+    }
 }
 
 impl Part {
@@ -136,6 +188,33 @@ impl Part {
     fn end_s(&self) -> f64 {
         let again = if self.every_s > 0.0 { self.every_s * (self.until_s / self.every_s).floor() } else { 0.0 };
         self.start_s + again + self.onset_s + self.hold_s + self.offset_s
+    }
+}
+
+impl Beside {
+    fn end_s(&self) -> f64 {
+        self.start_s + self.onset_s + self.hold_s + self.offset_s
+    }
+}
+
+impl BesideRow {
+    fn read(self, file: &str) -> Result<Beside, MotionError> {
+        let Self { channel, value, start_s, onset_s, hold_s, offset_s, evidence } = self;
+        if !value.is_finite() {
+            return Err(MotionError::row(file, channel.id(), format!("value is {value}, which is no number")));
+        }
+        for (name, seconds) in [("start_s", start_s), ("onset_s", onset_s), ("hold_s", hold_s), ("offset_s", offset_s)]
+        {
+            check_seconds(file, channel.id(), name, seconds)?;
+        }
+        Ok(Beside { channel, value, start_s, onset_s, hold_s, offset_s, evidence })
+    }
+}
+
+fn check_seconds(file: &str, row: &str, name: &str, seconds: f64) -> Result<(), MotionError> {
+    match (0.0..=MOST_SECONDS).contains(&seconds) {
+        true => Ok(()),
+        false => Err(MotionError::row(file, row, format!("{name} is {seconds}, allowed 0 to {MOST_SECONDS}"))),
     }
 }
 
@@ -157,9 +236,7 @@ impl Row {
             ("every_s", self.every_s),
             ("until_s", self.until_s),
         ] {
-            if !(0.0..=MOST_SECONDS).contains(&seconds) {
-                return Err(wrong(format!("{name} is {seconds}, allowed 0 to {MOST_SECONDS}")));
-            }
+            check_seconds(file, &self.unit, name, seconds)?;
         }
         let course = self.onset_s + self.hold_s + self.offset_s;
         if self.every_s > 0.0 && self.every_s < course {

@@ -30,7 +30,7 @@ pub use attention::{Attention, Stimulus};
 pub use channel::Channel;
 pub use clip::{Blend, Clip, Layer, Moved, Track};
 pub use ease::Ease;
-pub use expression::{Expression, Part};
+pub use expression::{Beside, Expression, Part};
 pub use follow::{Build, Follow};
 pub use library::{CLIPS, EXPRESSIONS, Library};
 pub use life::{Life, Temper};

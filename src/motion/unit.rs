@@ -161,6 +161,9 @@ pub struct Unit {
     pub landmarks: Vec<LandmarkMotion>,
     /// What parts at 1.
     pub gaps: Vec<Gap>,
+    /// How far the ear's opening turns outwards about the ear's length at 1, degrees, least and most, where it does: the landmarks
+    /// of the ear's base stay where they are.
+    pub opening_deg: Option<(f32, f32)>,
     /// What must be seen at least for the code to be given.
     pub criterion: String,
     /// What this rig does not do of it; empty where nothing is known to be missing.
@@ -230,6 +233,8 @@ struct Row {
     landmarks: Vec<LandmarkMotion>,
     #[serde(default)]
     gaps: Vec<Gap>,
+    #[serde(default)]
+    opening_deg: Option<(f32, f32)>,
     criterion: String,
     #[serde(default)]
     lacks: String,
@@ -399,8 +404,9 @@ impl Row {
         if drives.is_empty() && self.clip.is_empty() {
             return Err(wrong("drives nothing and names no clip".into()));
         }
-        let least_to_most =
-            self.landmarks.iter().map(|m| (&m.0, m.2, m.3)).chain(self.gaps.iter().map(|g| (&g.0, g.2, g.3)));
+        let of_ear = self.opening_deg.iter().map(|&(least, most)| ("opening_deg", least, most));
+        let landmarks = self.landmarks.iter().map(|m| (m.0.as_str(), m.2, m.3));
+        let least_to_most = landmarks.chain(self.gaps.iter().map(|g| (g.0.as_str(), g.2, g.3))).chain(of_ear);
         for (id, least, most) in least_to_most {
             if !(least <= most && least.is_finite() && most.is_finite()) {
                 return Err(wrong(format!("{id} moves from {least} to {most}: the least comes first")));
@@ -417,6 +423,7 @@ impl Row {
             clip: self.clip,
             landmarks: self.landmarks,
             gaps: self.gaps,
+            opening_deg: self.opening_deg,
             criterion: self.criterion,
             lacks: self.lacks,
             source: self.source,

@@ -53,7 +53,7 @@ struct EyeBlock {
     centre: Vec4,
     /// Unit; and the limbus' angle to the side, to above, and nothing.
     axes: [Vec4; 3],
-    /// Linear.
+    /// Linear; and how much wider the pupil is than at rest, as a part of the iris' width.
     iris: Vec4,
     /// Two points of the opening between the lids each, in the plane of [`Eyeball::lids`].
     lids: [Vec4; 6],
@@ -61,13 +61,13 @@ struct EyeBlock {
 
 impl EyeBlock {
     fn of(eyeball: &Eyeball) -> Self {
-        let Eyeball { eye, iris, lids } = eyeball;
+        let Eyeball { eye, iris, widened, lids } = eyeball;
         let [side, up] = eye.limbus();
         let [a, b, g] = eye.axes;
         Self {
             centre: eye.centre.extend(eye.radius),
             axes: [a.extend(side), b.extend(up), g.extend(0.0)],
-            iris: iris.extend(1.0),
+            iris: iris.extend(*widened),
             lids: std::array::from_fn(|i| {
                 let (one, other) = (lids[2 * i], lids[2 * i + 1]);
                 Vec4::new(one.x, one.y, other.x, other.y)

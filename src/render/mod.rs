@@ -35,7 +35,7 @@ pub use gpu::{Gpu, GpuError};
 pub use ground_pass::Background;
 pub use mesh_pass::Quality;
 pub use offscreen::{DrawError, Offscreen};
-pub use painter::{Drawing, Painter, Shading, Stage};
+pub use painter::{Aside, Drawing, Painter, Shading, Stage};
 pub use picture::Picture;
 pub use preset::{Preset, PresetError};
 pub use samples::{Samples, SamplesError};

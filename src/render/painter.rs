@@ -127,6 +127,12 @@ pub struct Painter {
     plan: Option<PlanBuffers>,
 }
 
+/// The buffers of a head that is drawn beside a painter's own, which stays as it is.
+#[derive(Debug, Default)]
+pub struct Aside {
+    head: Option<HeadBuffers>,
+}
+
 #[derive(Debug)]
 struct Passes {
     ground: GroundPass,
@@ -229,6 +235,27 @@ impl Painter {
         drawing: &Drawing,
     ) {
         self.draw_until(Stage::Surfaces, device, queue, encoder, targets, frame, drawing);
+    }
+
+    /// The same for another head than the painter's own, without lines, without hair, and without the card's help. What this
+    /// records has to be submitted before anything else is drawn.
+    #[expect(clippy::too_many_arguments, reason = "those of a whole picture, and whose")]
+    pub fn draw_aside(
+        &mut self,
+        aside: &mut Aside,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &Frame<'_>,
+        drawing: &Drawing,
+    ) {
+        let plain = Drawing { shading: Shading::Shaded, n_strands: 0, on_card: false, ..*drawing };
+        let plan = self.plan.take();
+        std::mem::swap(&mut self.head, &mut aside.head);
+        self.draw(device, queue, encoder, targets, frame, &plain);
+        std::mem::swap(&mut self.head, &mut aside.head);
+        self.plan = plan;
     }
 
     /// The same, up to a stage of the picture: for who measures what each costs.

@@ -22,6 +22,9 @@ pub const TEAR_LINE: usize = SECTIONS * CORNERS + 2;
 
 /// What is seen of the third eyelid, radians of the globe from the medial corner: 1.6 mm on a globe of 20.5 mm.
 const SEEN: f32 = 0.16;
+/// How much farther it comes out of the corner as the lids close, radians of the globe: a crescent of 1 to 4 mm is seen in all, and
+/// it follows the lids in a blink (the muscles that draw the globe back push it out).
+const SWEPT: f32 = 0.234;
 /// Of it hidden behind the corner, and how far it goes under the lids upwards and downwards.
 const HIDDEN: f32 = 0.35;
 const HALF_HEIGHT: f32 = 1.0;
@@ -90,8 +93,8 @@ pub fn tear_line_mesh() -> Result<DedgeMesh, MeshError> {
 }
 
 /// The left third eyelid (`out`: [`THIRD_EYELID`] positions, metres): a crescent on the globe, its free edge hollow
-/// towards the pupil.
-pub fn third_eyelid(s: &Proportions, eye: &Eye, out: &mut Vec<Vec3>) {
+/// towards the pupil. `closed`: how far the lids are shut, 0 to 1.
+pub fn third_eyelid(s: &Proportions, eye: &Eye, closed: f32, out: &mut Vec<Vec3>) {
     let [a, b, g] = orbit_axes(s).map(|axis| s.direction(axis));
     // The medial corner of the lids' outer margin, which lies 1.1 radii from the centre.
     let corner = ops::asin((s.eye_w / 1.1).min(0.99));
@@ -99,7 +102,7 @@ pub fn third_eyelid(s: &Proportions, eye: &Eye, out: &mut Vec<Vec3>) {
     for sheet in 0..2 {
         for r in 0..ROWS {
             let v = 2.0 * r as f32 / (ROWS - 1) as f32 - 1.0;
-            let edge = corner - SEEN - 0.45 * v * v;
+            let edge = corner - SEEN - SWEPT * closed - 0.45 * v * v;
             let root = corner + HIDDEN;
             // A little below the corner, as the slit slopes down to it.
             let up = HALF_HEIGHT * v - 0.05;

@@ -49,8 +49,11 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
         let panel = egui::Panel::right("motion").default_size(430.0).size_range(300.0..=680.0);
         panel.show(ui, |ui| motion::ui(state, ui));
     }
+    let is_down = ui.input(|i| i.pointer.any_down());
+    let is_held = is_down || state.motion.is_typing;
+    state.note_motion(is_held);
     if state.motion.is_playing {
-        state.motion.pass(f64::from(ui.input(|i| i.stable_dt)));
+        state.pass(f64::from(ui.input(|i| i.stable_dt)));
         ui.ctx().request_repaint();
     }
     let central = egui::CentralPanel::no_frame().show(ui, |ui| {
@@ -70,7 +73,7 @@ pub fn show(state: &mut EditorState, ui: &mut egui::Ui, picture: Option<egui::Te
     keys::ui(state, ui.ctx());
     quit_question(state, ui.ctx());
     drop_hint(ui.ctx());
-    if !ui.input(|i| i.pointer.any_down()) {
+    if !is_held {
         state.end_gesture();
     }
     central.inner

@@ -76,7 +76,7 @@ pub(super) fn bake(
         out.extend(record(name, false, samples.collect()));
     }
     for expression in selection.expressions.iter().map(|&k| &library.expressions[k]) {
-        let samples = times(expression.seconds()).into_iter().map(|t| at(&Moment::from(expression.at(t)), t));
+        let samples = times(expression.seconds()).into_iter().map(|t| at(&expression.moment(t), t));
         out.extend(record(expression.id.clone(), false, samples.collect()));
     }
     for clip in selection.clips.iter().map(|&k| &library.clips[k]) {

@@ -59,6 +59,9 @@ impl Mix {
             .collect();
         let mut weights = vec![0.0; targets.len()];
         may.iter().for_each(|&k| weights[k] = own[k]);
+        // What moves nothing of the puppet, as pupils, is as strong as it is asked for.
+        let is_unseen = |k: &usize| targets[*k].kind == Kind::Shape && self.shapes[*k].is_empty();
+        (0..targets.len()).filter(is_unseen).for_each(|k| weights[k] = own[k]);
         for _ in 0..ROUNDS {
             for &k in &may {
                 let size = self.products[k][k];

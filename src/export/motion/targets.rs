@@ -100,9 +100,10 @@ pub(super) fn wanted(library: &Library, selection: &Selection) -> Vec<Target> {
         }
     }
     let tracks = selection.clips.iter().flat_map(|&k| &library.clips[k].layers).flat_map(|layer| &layer.tracks);
+    let of_clips = tracks.filter_map(|track| if let InClip::Target(target) = track.of { Some(target) } else { None });
+    let beside = selection.expressions.iter().flat_map(|&k| &library.expressions[k].beside);
     let mut driven: Vec<Driven> = Vec::new();
-    for track in tracks {
-        let InClip::Target(target) = track.of else { continue };
+    for target in beside.map(|beside| Driven::Channel(beside.channel)).chain(of_clips) {
         let is_known = |drive: &Drive| drive.target == target;
         let has_unit = library.units.units.iter().any(|unit| unit.drives.iter().any(is_known));
         if !has_unit && !turns_joints(target) && !driven.contains(&target) {
