@@ -38,8 +38,10 @@ pub(super) fn place(pins: &mut Pins) {
         let x = -cos * s.eye_w;
         let arch = |full: f32| sin.abs() * (1.0 + full * (1.0 - sin.abs()));
         // Higher towards the nose: an inner half that slopes down reads as anger.
-        let upper = (1.0 + (0.16 + 0.24 * s.eye_dome) * cos) * arch(0.22 + 0.5 * s.eye_dome);
-        let y = if sin > 0.0 { upper } else { -0.78 * arch(0.22) } * s.eye_open - if k == 0 { 0.05 } else { 0.0 };
+        let plain = if sin > 0.0 { (1.0 + 0.16 * cos) * arch(0.22) } else { -0.78 * arch(0.22) };
+        let domed = (1.0 + (0.16 + 0.12 * s.eye_dome) * cos) * arch(0.22 + 0.25 * s.eye_dome);
+        let fuller = if sin > 0.0 { (domed - plain) * s.eye_open } else { 0.0 };
+        let y = plain * s.eye_open + fuller - if k == 0 { 0.05 } else { 0.0 };
         // A lid that hangs does so most under the middle, and leaves the ball.
         let hang = s.haw / r * if sin < 0.0 { sin * sin * (1.0 - 0.2 * cos) } else { 0.0 };
         // The medial corner stands before the ball, over the rim of the orbit; the third lid lies in it.
@@ -52,7 +54,7 @@ pub(super) fn place(pins: &mut Pins) {
         let forward = [1.0, 0.68, 0.2].get(k.min(12 - k)).copied().unwrap_or(0.0);
         let fold = on_ball(
             x * (1.20 + 0.06 * corner),
-            y * if sin > 0.0 { 1.32 } else { 1.2 } - down - 0.8 * hang,
+            (y - fuller) * if sin > 0.0 { 1.32 } else { 1.2 } + 0.4 * fuller - down - 0.8 * hang,
             1.16 + 0.2 * hang,
         ) + g * (r * s.canthus() * forward);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
