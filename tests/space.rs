@@ -75,7 +75,7 @@ fn a_random_dog_is_no_breed_file() {
 }
 
 /// Of coordinates over their deviations. The tolerance is for the sample, some 6 %, and for what is cut off at the most
-/// extreme breed and at the ends of ranges: there is no dewlap below zero, so that its mean rises.
+/// extreme breed and at the ends of ranges: there is no dewlap and no fold below zero, where most breeds are.
 #[test]
 fn random_dogs_vary_otherwise_than_the_breeds() {
     let world = World::embedded();
@@ -101,7 +101,7 @@ fn random_dogs_vary_otherwise_than_the_breeds() {
     }
     let part = (wrong / squares).sqrt();
     println!("covariance off by {part:.3} of its norm, means by up to {worst_mean:?} deviations");
-    assert!(part < 0.2, "the covariance of {N} random dogs is off by {part:.3} of its norm");
+    assert!(part < 0.25, "the covariance of {N} random dogs is off by {part:.3} of its norm");
     assert!(worst_mean.0 < 0.4, "a mean is off by {worst_mean:?} deviations");
 }
 

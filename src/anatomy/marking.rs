@@ -144,8 +144,8 @@ kinds! {
         ("height", 0.0, 1.0, 0.4, "where: 0 at the stop, 1 at the occiput"),
         ("soft_mm", 0.5, 60.0, 4.0, "width of the border"),
     ];
-    Wrinkles: "Shadows in the folds of the forehead.", [
-        ("spacing_mm", 3.0, 40.0, 11.0, "from fold to fold"),
+    Wrinkles: "Shadows in the folds of brow and cheek, wherever skin can fold.", [
+        ("spacing_mm", 3.0, 40.0, 11.0, "from fold to fold of the brow, at a default head's size"),
         ("soft_mm", 0.5, 60.0, 3.0, "width of the border"),
     ];
     Piebald: "White that leaves a patch on each side, from the eye to the ear.", [

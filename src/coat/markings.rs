@@ -7,6 +7,7 @@
 use super::chart::Site;
 use crate::anatomy::{Marking, MarkingKind, Pattern};
 use crate::math::{noise, ops};
+use crate::rig::folds;
 use glam::{Vec3, vec3};
 
 /// Places of the base head, left side, head units.
@@ -337,10 +338,8 @@ impl<'a> Spot<'a> {
             Wrinkles => {
                 let [spacing, soft, ..] = v;
                 let spacing = spacing * MM;
-                let phase = (p.z - 0.35 * self.a) / spacing;
-                let wave = ops::cos(std::f32::consts::TAU * (phase - phase.floor()));
-                let frame = (2.9 - self.a).min(4.2 + p.z).min(0.4 - p.z).min(p.y + 0.4);
-                self.within(((wave - 0.55) * 0.25 * spacing).min(0.4 * frame), soft)
+                let valley = folds::Site::new(self.site.place, 1.0).valley(spacing);
+                self.within((valley - 0.45) * 0.5 * spacing, soft)
             }
             Piebald => {
                 let [extent, left, right, ears, ragged, number] = v;

@@ -4,6 +4,7 @@ mod canvas;
 mod dyes;
 mod eyeball;
 mod eyelids;
+mod folds;
 mod layers;
 mod mouth;
 mod muscles;

@@ -8,6 +8,7 @@ use super::canvas::Canvas;
 use super::dyes::Dyes;
 use super::eyeball::Eyeball;
 use super::eyelids::EyelidParts;
+use super::folds::Folds;
 use super::layers::Layers;
 use super::mouth::MouthParts;
 use super::muscles::MuscleParts;
@@ -69,6 +70,8 @@ pub struct Pipeline {
     pressed: [Vec<Vec3>; 2],
     /// Whether the last frame's skin has more form than its control positions tell.
     is_wrinkled: bool,
+    /// Those of the skin at rest.
+    folds: Folds,
     parts: [Values; 4],
     eyelids: EyelidParts,
     /// Left and right.
@@ -92,6 +95,8 @@ pub struct Pipeline {
     /// The pose of the last frame.
     posed: Pose,
     look: Option<Look>,
+    /// How much of the lower lids' lining the last frame shows, 0 to 1.
+    haw: f32,
     /// How much the coat of the last frame is a puppy's, 0 to 1.
     youth: f32,
     revisions: Revisions,
@@ -134,6 +139,7 @@ impl Pipeline {
             control_surface: vec![Vec3::ZERO; n],
             pressed: [vec![Vec3::ZERO; n], Vec::new()],
             is_wrinkled: false,
+            folds: Folds::default(),
             parts,
             eyelids: EyelidParts::new(&rig)?,
             eyeballs: Default::default(),
@@ -150,6 +156,7 @@ impl Pipeline {
             pose: Pose::default(),
             posed: Pose::default(),
             look: None,
+            haw: 0.0,
             youth: 0.0,
             revisions: Revisions { topology: 1, shape: 0, look: 0 },
             plan: Arc::new(plan),
@@ -192,6 +199,7 @@ impl Pipeline {
         let plan = Self::plan(&self.rig, level)?;
         self.whiskers = WhiskerParts::new(&self.rig, &plan)?;
         self.parts = Self::parts(&self.rig, &plan);
+        self.folds = Folds::default();
         self.evaluator = Evaluator::new(&plan);
         self.evaluator.set_threads(self.threads);
         self.plan = Arc::new(plan);
@@ -319,7 +327,9 @@ impl Pipeline {
             self.shape(&breed.values, is_other);
             self.revisions.shape += 1;
         }
-        if self.look.as_ref() != Some(&breed.look) {
+        let haw = self.rig.seen_conjunctiva(&breed.values);
+        if self.look.as_ref() != Some(&breed.look) || self.haw != haw {
+            self.haw = haw;
             self.paint(&breed.look);
             self.look = Some(breed.look.clone());
             self.revisions.look += 1;
@@ -387,6 +397,11 @@ impl Pipeline {
     fn shape(&mut self, values: &[f32], is_other: bool) {
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_into(&self.plan, &self.deformed.control, &mut skin.positions, &mut skin.normals);
+        if is_other {
+            let shown = self.level >= WRINKLED;
+            self.folds.shape(&self.rig, &self.plan, &skin.rest, values, shown);
+        }
+        self.folds.raise(self.plan.indices(), skin);
         let pressed = &mut self.pressed;
         self.is_wrinkled =
             self.level >= WRINKLED && self.rig.pressed(values, &self.pose, &mut self.deformed, &mut pressed[0]);
@@ -397,6 +412,7 @@ impl Pipeline {
             let size = self.rig.of_head(values, &mut self.deformed).unit / 0.001;
             wrinkle(skin, refined, &self.deformed.places.head.turn, size);
         }
+        self.is_wrinkled |= self.folds.is_there();
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
         place_cap(&self.plan, &skin.positions, cap);
@@ -429,7 +445,7 @@ impl Pipeline {
 
     fn paint(&mut self, look: &Look) {
         let Self { control_leathers: leathers, control_bare: bare, control_surface, .. } = self;
-        skin::paint(&self.rig, look, leathers, bare, control_surface);
+        skin::paint(&self.rig, look, self.haw, leathers, bare, control_surface);
         let [skin, cap, left, right] = &mut self.parts;
         self.evaluator.evaluate_attribute(&self.plan, control_surface, &mut skin.surface);
         let HairValues { roots, colours: of_hair, control, refined, grooms, .. } = &mut self.hair;

@@ -8,6 +8,9 @@ use crate::rig::Rig;
 use crate::subdiv::{Plan, Tags};
 use glam::{Vec3, vec3};
 
+/// The lining of the lids, linear.
+const CONJUNCTIVA: Vec3 = vec3(0.34, 0.055, 0.05);
+
 /// Material of a control face by the regions of its corners.
 fn material(regions: [Region; 3]) -> Material {
     use Region::{Lid, Mouth, Nose, Nostril};
@@ -88,13 +91,25 @@ fn surface(look: &Look, region: Region) -> Vec3 {
 }
 
 /// Leather and surface qualities of the control vertices (one each). `leathers`: the colour times how much of it shows;
-/// `bare`: x how much that is, 0 to 1.
-pub(super) fn paint(rig: &Rig, look: &Look, leathers: &mut [Vec3], bare: &mut [Vec3], qualities: &mut [Vec3]) {
+/// `bare`: x how much that is, 0 to 1. `haw`: how much the lower lid's lining is seen, 0 to 1.
+pub(super) fn paint(
+    rig: &Rig,
+    look: &Look,
+    haw: f32,
+    leathers: &mut [Vec3],
+    bare: &mut [Vec3],
+    qualities: &mut [Vec3],
+) {
     let regions = rig.half().whole_regions();
     for (v, &region) in regions.iter().enumerate() {
         let (colour, part) = leather(look, region);
         (leathers[v], bare[v]) = (colour * part, Vec3::splat(part));
         qualities[v] = surface(look, region);
+    }
+    // A hanging lid shows what lies on the ball's side of its margin.
+    for v in rig.lower_conjunctiva() {
+        leathers[v] = leathers[v].lerp(CONJUNCTIVA, haw);
+        qualities[v] = qualities[v].lerp(vec3(0.0, 1.0, 0.1), haw);
     }
     // The lining's outermost row is the lip's inner side.
     for (v, pigment) in rig.inner_lip() {

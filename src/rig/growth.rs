@@ -51,7 +51,9 @@ fn age(m: &mut Measures) {
     m.cranial_width *= width;
     m.cranial_height *= by(0.5 * (CRANIUM + WIDTH));
     m.forehead_dome += DOME * (1.0 - cranium);
-    for crest in [&mut m.occiput, &mut m.furrow, &mut m.temporalis, &mut m.masseter, &mut m.brow, &mut m.dewlap] {
+    for crest in
+        [&mut m.occiput, &mut m.furrow, &mut m.temporalis, &mut m.masseter, &mut m.brow, &mut m.dewlap, &mut m.haw]
+    {
         *crest *= relief;
     }
     m.facial_length *= face;

@@ -8,6 +8,7 @@ pub mod deform;
 mod eye;
 pub mod eyelids;
 mod flow;
+pub mod folds;
 mod growth;
 pub mod handles;
 pub mod implicit;
@@ -153,6 +154,12 @@ impl Rig {
         inner.flat_map(move |(v, pigment)| [(v as usize, pigment), (mirror[v as usize] as usize, pigment)])
     }
 
+    /// Vertices of the whole mesh on the inner side of the lower lids, between their corners.
+    pub fn lower_conjunctiva(&self) -> impl Iterator<Item = usize> + '_ {
+        let inner = self.plan.handles().ei[7..].iter().map(|&v| usize::from(v));
+        inner.flat_map(|v| [v, self.image(v)])
+    }
+
     /// Sharp edges of the whole mesh: vertices and sharpness, each edge once.
     pub fn creases(&self) -> impl Iterator<Item = (u32, u32, f32)> + '_ {
         self.half.whole_creases()
@@ -195,6 +202,11 @@ impl Rig {
     /// How much of a puppy's coat a breed has at its age, 0 to 1.
     pub fn youth(&self, values: &[f32]) -> f32 {
         growth::youth(Measures::from_values(values, &self.columns).age)
+    }
+
+    /// How much a breed shows of the lower lids' lining, 0 to 1: all of it where they hang by 2.5 mm.
+    pub fn seen_conjunctiva(&self, values: &[f32]) -> f32 {
+        (self.measures(values).haw / 0.0025).clamp(0.0, 1.0)
     }
 
     /// A head's proportions from a breed's values (SI, one per row of the table the rig was made for).

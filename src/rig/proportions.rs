@@ -91,6 +91,12 @@ measures! {
     neck_width = "neck_width_mm",
     neck_depth = "neck_depth_mm",
     neck_angle = "neck_angle_deg",
+    brow_folds = "brow_folds_mm",
+    nose_folds = "nose_folds_mm",
+    cheek_folds = "cheek_folds_mm",
+    fold_spacing = "fold_spacing_mm",
+    lid_dome = "lid_dome",
+    haw = "haw_mm",
     age = "age_weeks",
     sex = "sex",
 }
@@ -217,6 +223,10 @@ pub struct Proportions {
     pub eye_open: f32,
     /// Width of the opening of the lids.
     pub eye_w: f32,
+    /// How much fuller than a plain arch the upper lid is, towards the nose before all.
+    pub eye_dome: f32,
+    /// How far the lower lid hangs off the ball.
+    pub haw: f32,
     /// Width of the neck.
     pub neck_w: f32,
     /// Depth of the neck.
@@ -290,6 +300,8 @@ impl Proportions {
             eye_cant: m.eye_cant,
             eye_open: m.lid_opening,
             eye_w: m.lid_width,
+            eye_dome: m.lid_dome,
+            haw: u(m.haw),
             neck_w: u(m.neck_width),
             neck_d: u(m.neck_depth),
             neck_ang: m.neck_angle,

@@ -36,20 +36,27 @@ pub(super) fn place(pins: &mut Pins) {
         let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / 12.0);
         // The upper lid is the higher arch; the tear duct draws the medial corner down a little.
         let x = -cos * s.eye_w;
-        let arch = sin.abs() * (1.0 + 0.22 * (1.0 - sin.abs()));
+        let arch = |full: f32| sin.abs() * (1.0 + full * (1.0 - sin.abs()));
         // Higher towards the nose: an inner half that slopes down reads as anger.
-        let y = if sin > 0.0 { (1.0 + 0.16 * cos) * arch } else { -0.78 * arch } * s.eye_open
-            - if k == 0 { 0.05 } else { 0.0 };
+        let plain = if sin > 0.0 { (1.0 + 0.16 * cos) * arch(0.22) } else { -0.78 * arch(0.22) };
+        let domed = (1.0 + (0.16 + 0.12 * s.eye_dome) * cos) * arch(0.22 + 0.25 * s.eye_dome);
+        let fuller = if sin > 0.0 { (domed - plain) * s.eye_open } else { 0.0 };
+        let y = plain * s.eye_open + fuller - if k == 0 { 0.05 } else { 0.0 };
+        // A lid that hangs does so most under the middle, and leaves the ball.
+        let hang = s.haw / r * if sin < 0.0 { sin * sin * (1.0 - 0.2 * cos) } else { 0.0 };
         // The medial corner stands before the ball, over the rim of the orbit; the third lid lies in it.
         let corner = [1.0, 0.45, 0.1].get(k.min(12 - k)).copied().unwrap_or(0.0);
         let before = g * (r * s.canthus() * corner);
-        pins.set(pins.handles.er[k], on_ball(x, y, 1.10) + before);
-        pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95, 1.015) + before * 0.8);
+        pins.set(pins.handles.er[k], on_ball(x, y - hang, 1.10 + 0.35 * hang) + before);
+        pins.set(pins.handles.ei[k], on_ball(x * 0.965, y * 0.95 - 0.25 * hang, 1.015) + before * 0.8);
         let down = if k == 0 { 0.05 } else { 0.0 };
         // The fold comes forward over more of the lids than their margins do.
         let forward = [1.0, 0.68, 0.2].get(k.min(12 - k)).copied().unwrap_or(0.0);
-        let fold = on_ball(x * (1.20 + 0.06 * corner), y * if sin > 0.0 { 1.32 } else { 1.2 } - down, 1.16)
-            + g * (r * s.canthus() * forward);
+        let fold = on_ball(
+            x * (1.20 + 0.06 * corner),
+            (y - fuller) * if sin > 0.0 { 1.32 } else { 1.2 } + 0.4 * fuller - down - 0.8 * hang,
+            1.16 + 0.2 * hang,
+        ) + g * (r * s.canthus() * forward);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
         // The orbit's loop is free but before the hollow of the stop, and starts around this eye.
