@@ -284,7 +284,7 @@ fn a_tooth_stands_beside_its_gum() {
                 all.len() / 14
             );
             let short = SHORT.contains(&breed.id.as_str());
-            if out * 100 > all.len() / 14 * if short { 30 } else { 4 } || hidden > 0 {
+            if out * 100 > all.len() / 14 * if short { 30 } else { 7 } || hidden > 0 {
                 bad.push(format!("{} {gums}", breed.id));
             }
         }

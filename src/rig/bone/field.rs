@@ -398,7 +398,7 @@ fn mandible(t: &Targets<Vec3>, bodies: &mut Vec<Body>) {
     // The rim that holds the teeth: no wider than their necks, so that a gum stands upright on it.
     let upper = [
         (t.infradentale + mm(3.4, -4.5, -4.4), 3.4),
-        (t.lower_canine + mm(-8.0, -4.8, -1.0), 3.2),
+        (t.lower_canine + mm(-4.8, -4.8, -1.0), 3.3),
         (t.lower_canine.lerp(t.lower_carnassial, 0.4) + mm(-5.4, -4.2, 0.0), 2.9),
         (t.lower_carnassial + mm(-5.2, -4.5, 0.0), 3.5),
         (t.lower_last + mm(-3.4, -5.0, 0.0), 4.0),

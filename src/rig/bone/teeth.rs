@@ -218,8 +218,7 @@ pub fn seats(t: &Targets<Vec3>, upper: bool) -> Vec<Seat> {
         let size = vec3(size.x * fit, size.y * fit, size.z);
         let inwards = match tooth.kind {
             Incisor => vec3(0.0, 0.0, -0.5 * size.y),
-            // The lower one stands far enough inside to pass in front of the upper one.
-            Canine => -across * (0.85 * size.y + if upper { 0.0 } else { 1.5 * unit }),
+            Canine => -across * (if upper { 0.85 } else { 0.65 } * size.y),
             _ => -across * (0.55 * size.y + 2.0 * unit),
         };
         let root = at + inwards - up * (SUNK * unit);
@@ -247,16 +246,19 @@ pub fn place(t: &Targets<Vec3>, upper: bool, out: &mut Vec<Vec3>) {
     }
 }
 
+/// How the crown of a lower canine leans forwards, curves back and leans outwards, parts of its height.
+const LOWER_CANINE: [f32; 3] = [0.36, 0.28, 0.10];
+
 /// A point of a crown, from its root: at `u` along the arch and `v` across.
 fn point(tooth: &Tooth, size: Vec3, axes: [Vec3; 3], [u, v]: [f32; 2], is_root: bool) -> Vec3 {
     let [along, across, up] = axes;
     let height = if is_root { -0.16 } else { crown(tooth.kind, u, v) };
     let mut p = along * (0.5 * size.x * u) + across * (0.5 * size.y * v) + up * (size.z * height);
     if tooth.kind == Canine {
-        // The crown leans forwards and curves back; the lower one outwards too.
+        // The crown leans forwards and curves back; the lower one outwards too, and forwards, to pass before the upper one.
         let t = height.max(0.0);
-        let lean = if up.y < 0.0 { 0.05 } else { 0.14 };
-        p += along * (size.z * (0.20 * t - 0.30 * t * t)) + across * (size.z * lean * t);
+        let [lean, curve, outwards] = if up.y < 0.0 { [0.20, 0.30, 0.05] } else { LOWER_CANINE };
+        p += along * (size.z * (lean * t - curve * t * t)) + across * (size.z * outwards * t);
     }
     p
 }

@@ -217,7 +217,7 @@ fn plain(arch: &Arch, k: usize, unit: f32) -> [Vec3; COLUMNS] {
     let inwards = (middle - neck).normalize_or(-outwards);
     let mut out = [neck; COLUMNS];
     let gum = [
-        outwards * (if arch.up > 0.0 { 0.85 } else { 1.0 } * wall) - height(skirt * unit),
+        outwards * (if arch.up > 0.0 { 0.65 } else { 1.0 } * wall) - height(skirt * unit),
         // Close to the necks above, or the teeth of the other jaw would be behind it.
         outwards * (0.25 * edge + 0.75 * wall) - height(3.5 * unit),
         outwards * (0.80 * edge + 0.20 * wall) + height(0.6 * margin),

@@ -151,7 +151,7 @@ impl Mouth {
         for ((arch, field), (body, whole, (layer, least))) in arches.iter().zip(&*fields).zip(bodies) {
             let keep = |p: Vec3, layer, least| under_skin(p, proportions, (&skin, layer), least);
             let under = |p: Vec3, wall: Wall| {
-                let least = if wall == Wall::Outer { gums::LEAST_TISSUE } else { least };
+                let least = if wall == Wall::Outer { 2.0 * gums::LEAST_TISSUE } else { least };
                 keep(keep(p, Layer::Whole, gums::LEAST_TISSUE), layer, least)
             };
             let inside = |p: Vec3| skin.distance(proportions.proportional(p), layer) < 0.0;
