@@ -813,6 +813,7 @@ const KNOWN_JUMPS: &[(&str, &str, f64)] = &[
     ("archetype_dolicho", "muzzle_width_root_mm", 1.7),
     ("beagle", "muzzle_depth_root_mm", 1.8),
     ("pug", "muzzle_width_tip_mm", 2.2),
+    ("dachshund", "muzzle_depth_tip_mm", 1.9),
     // No jump: the tip of the leather slides as fast as that over the edge of the head.
     ("bulldog", "ear_sweep_deg", 2.2),
 ];

@@ -54,8 +54,8 @@ pub(super) fn place(pins: &mut Pins) {
         let forward = [1.0, 0.68, 0.2].get(k.min(12 - k)).copied().unwrap_or(0.0);
         let fold = on_ball(
             x * (1.20 + 0.06 * corner),
-            (y - fuller) * if sin > 0.0 { 1.32 } else { 1.2 } + 0.4 * fuller - down - 0.8 * hang,
-            1.16 + 0.2 * hang,
+            (y - fuller) * if sin > 0.0 { 1.32 } else { 1.2 } + 0.4 * fuller - down - 1.05 * hang,
+            1.16 + 0.45 * hang,
         ) + g * (r * s.canthus() * forward);
         let skin = pins.surface.project(fold, Layer::Whole, 4);
         pins.set(pins.handles.of[k], fold + (skin - fold) * 0.55);
