@@ -22,7 +22,7 @@ const OFF_ON_BASE: [f32; 3] = [0.08, 0.025, 1e-4];
 const OFF: [(f32, f32); 3] = [(4e-4, 5e-3), (1e-4, 1.2e-3), (1e-6, 1e-5)];
 
 /// The same on a head with loose skin, whose folds stand out from the second level on, and there on coarse triangles.
-const OFF_FOLDS: [(f32, f32); 3] = [(2e-3, 2.5e-2), (2e-4, 8e-3), OFF[2]];
+const OFF_FOLDS: [(f32, f32); 3] = [(4e-3, 3e-2), (3e-4, 1.2e-2), OFF[2]];
 const FOLDS: [&str; 3] = ["brow_folds_mm", "nose_folds_mm", "cheek_folds_mm"];
 
 /// One level: its heads, where its skin lies on the base head, and which region each of its triangles is of.
