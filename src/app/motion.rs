@@ -272,7 +272,7 @@ impl Motion {
         self.scrub((time + f64::from(frames) * FRAME_SECS).clamp(0.0, length.unwrap_or(f64::MAX)));
     }
 
-    /// Time passes, seconds of a clock; a window that stood still does not make up for more than [`LONGEST_SECS`].
+    /// Time passes, seconds of a clock; a window that stood still does not make up for more than `LONGEST_SECS`.
     pub fn pass(&mut self, seconds: f64) {
         if !self.is_playing {
             return;
