@@ -22,7 +22,7 @@ const RIDGE: f32 = 0.9;
 /// that nobody looks under it when they part.
 const SKIRT: [f32; 2] = [9.0, 10.0];
 /// How far the lower wall reaches down on its way to the chin's skin: below the lining of the lip.
-const TO_CHIN: f32 = 0.75;
+const TO_CHIN: f32 = 0.6;
 /// Longest such way, canonical millimetres, and in how many steps it is gone.
 const CHIN: (f32, usize) = (60.0, 24);
 /// Gum over bone at least, canonical millimetres.
@@ -31,7 +31,7 @@ const COVER: f32 = 1.2;
 pub(super) const LEAST_TISSUE: f32 = 0.1;
 
 /// How far the sulcus, the outer wall and the rest go off the bone at most, canonical millimetres: gum ends on the bone.
-const FARTHEST: [f32; 3] = [1.0, 2.0, 5.0];
+const FARTHEST: [f32; 3] = [1.2, 2.2, 5.0];
 
 /// Columns over the gum, from outside: sulcus, outer wall, shoulder, margin, between the teeth, margin, foot.
 const GUM: usize = 7;
@@ -144,7 +144,9 @@ pub(super) fn place(
             let step = CHIN.0 / CHIN.1 as f32;
             let far = (1..=CHIN.1).rfind(|&i| inside(from - height(step * unit * i as f32))).unwrap_or(0);
             let sulcus = &mut out[seen(k, 0)];
-            sulcus.y = sulcus.y.min(from.y - TO_CHIN * step * far as f32 * unit);
+            // Behind the corner of the mouth nobody looks.
+            let seen = 1.0 - smoothstep(0.5, 0.8, k as f32 / (RIBS - 1) as f32);
+            sulcus.y = sulcus.y.min(from.y - TO_CHIN * seen * step * far as f32 * unit);
         }
     }
     // Off the bone: outwards at the sides, towards the teeth's tips elsewhere. Neighbours go along, so that it stays even.
