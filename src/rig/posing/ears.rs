@@ -97,7 +97,7 @@ impl Ears {
         pose: &Pose,
         unit: f32,
         rest: &[Vec3],
-        (shape, surface): (&Proportions, &Implicit),
+        head @ (shape, _): (&Proportions, &Implicit),
         mirror: &[u32],
         at: &mut [Vec3],
     ) {
@@ -129,13 +129,19 @@ impl Ears {
                 }
                 let closed = closing(&ear, &values, k, ring);
                 let place = |v: u32, middle: Vec3| middle + turn * closed(ear.at[v as usize] - ear.middles[k]);
+                // Two at a time; of an odd ring the last is asked twice.
+                let pairs = ring.chunks(2).map(|pair| [pair[0], pair[pair.len() - 1]]);
+                let off = |(deep, outwards): (f32, Vec3)| shape.direction(outwards) * (deep * shape.scale);
                 if k >= 2 {
-                    middle += off(shape, surface, &ear, ring, &|v| place(v, middle));
+                    let all = pairs.clone().flat_map(|two| lacks(head, &ear, two, two.map(|v| place(v, middle))));
+                    middle += off(all.fold((0.0, Vec3::ZERO), |most, own| if own.0 > most.0 { own } else { most }));
                 }
-                for &v in ring {
-                    let p = place(v, middle);
-                    let p = if k >= 1 { p + off(shape, surface, &ear, &[v], &|_| p) } else { p };
-                    put(v, p - ear.at[v as usize]);
+                for (two, own) in pairs.zip(ring.chunks(2)) {
+                    let places = two.map(|v| place(v, middle));
+                    let deep = if k >= 1 { lacks(head, &ear, two, places) } else { Default::default() };
+                    for ((&v, p), deep) in own.iter().zip(places).zip(deep) {
+                        put(v, p + off(deep) - ear.at[v as usize]);
+                    }
                 }
             }
         }
@@ -168,23 +174,21 @@ fn closing(ear: &Rest<'_>, &[.., back, _, _, _]: &[f32; 8], k: usize, ring: &[u3
     }
 }
 
-/// The least shift that brings the deepest of these vertices off the head, metres; none where it lay as deep at rest.
-fn off(shape: &Proportions, surface: &Implicit, ear: &Rest<'_>, ring: &[u32], place: &dyn Fn(u32) -> Vec3) -> Vec3 {
-    let mut most = (0.0, Vec3::ZERO);
-    for pair in ring.chunks(2) {
-        let (a, b) = (pair[0], pair[pair.len() - 1]);
-        let [pa, pb] = [a, b].map(|v| shape.proportional(place(v)));
-        let samples = surface.sample2(pa, pb, Layer::Whole);
-        for (v, (d, g)) in [a, b].into_iter().zip(samples) {
-            if d >= CLEAR {
-                continue;
-            }
-            let rest = surface.distance(shape.proportional(ear.at[v as usize]), Layer::Whole);
-            let lacks = rest.min(CLEAR) - d;
-            if lacks > most.0 {
-                most = (lacks, g.normalize_or_zero());
-            }
+/// By how much two vertices that lie at `places` are deeper in the head than at rest, in its proportions, and outwards.
+fn lacks(
+    (shape, surface): (&Proportions, &Implicit),
+    ear: &Rest<'_>,
+    vertices: [u32; 2],
+    places: [Vec3; 2],
+) -> [(f32, Vec3); 2] {
+    let [a, b] = places.map(|p| shape.proportional(p));
+    let samples = surface.sample2(a, b, Layer::Whole);
+    std::array::from_fn(|k| {
+        let (d, outwards) = samples[k];
+        if d >= CLEAR {
+            return (0.0, Vec3::ZERO);
         }
-    }
-    shape.direction(most.1) * (most.0 * shape.scale)
+        let rest = surface.distance(shape.proportional(ear.at[vertices[k] as usize]), Layer::Whole);
+        ((rest.min(CLEAR) - d).max(0.0), outwards.normalize_or_zero())
+    })
 }

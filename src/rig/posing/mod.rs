@@ -130,6 +130,7 @@ impl PosePlan {
             off_bone: OffBone::new(
                 mesh.indices().as_chunks::<3>().0,
                 &half.whole_regions(),
+                &base,
                 |v| is_lid[v],
                 |v| neck[v] == neck::END || is_corner(v),
             ),
@@ -274,7 +275,7 @@ impl PosePlan {
             }
         }
         let mandible = place.after(&jaw);
-        self.off_bone.keep_off(&self.neighbours, &head.bones, ([&place, &mandible], &head.rest), pushes, control);
+        self.off_bone.keep_off(&self.neighbours, &head.bones, [&place, &mandible], pushes, control);
         let eyes = eyes.map(|e| {
             if place.is_rest() {
                 return e;
