@@ -469,7 +469,7 @@ fn eye(at: Point, colour: vec3<f32>) -> vec3<f32> {
 
     // White, brown with pigment towards the cornea and reddened by vessels towards the corners.
     let vessels = grain(vec3<f32>(direction.xy * vec2<f32>(14.0, 60.0), direction.z * 9.0));
-    let white = mix(vec3<f32>(0.13, 0.080, 0.062), vec3<f32>(0.52, 0.44, 0.39), smoothstep(1.0, 1.75, angle));
+    let white = mix(vec3<f32>(0.13, 0.080, 0.062), vec3<f32>(0.62, 0.55, 0.50), smoothstep(1.0, 1.40, angle));
     let red = smoothstep(0.58, 0.72, vessels.x) * smoothstep(1.15, 1.6, angle);
     var light = white * mix(vec3<f32>(1.0), vec3<f32>(0.95, 0.55, 0.48), red) * diffuse(p, 0.4);
 

@@ -195,6 +195,74 @@ fn both_sides_together_are_no_mirror_image() {
     }
 }
 
+/// Height of the upper lid's margin over the line between its corners, as a part of that line: in its middle and, the mean
+/// of both, towards its corners.
+fn upper_lid(world: &mut World, breed: &Breed, closed: f32) -> [f32; 2] {
+    let mut pose = Pose::default();
+    *pose.channel_mut(Channel::LidClosed) = [closed; 2];
+    world.pipeline.set_pose(pose);
+    let rig = world.pipeline.rig().clone();
+    let margin = rig.plan().handles().er;
+    let frame = world.pipeline.update(breed);
+    let at = |k: usize| frame.control[usize::from(margin[k])];
+    let (medial, lateral) = (at(0), at(6));
+    let line = lateral - medial;
+    // Upwards, across the line: that of the rims' middle at any closing is nearly the orbit's own.
+    let up = Vec3::Y.reject_from(line).normalize_or(Vec3::Y);
+    let above = |k: usize| up.dot(at(k) - medial) / line.length();
+    [above(3), 0.5 * (above(1) + above(5))]
+}
+
+/// How far a lid is closed, and how much of the arch of an open eye it has at least: nearly all until it is half closed, and
+/// no straight line before it nearly meets the other.
+const KEPT: [(f32, f32); 6] = [(0.2, 0.9), (0.3, 0.85), (0.4, 0.75), (0.5, 0.6), (0.6, 0.4), (0.7, 0.1)];
+
+#[test]
+fn a_lid_that_is_half_closed_cuts_straight_across_the_eye() {
+    let mut world = World::new();
+    for id in BREEDS {
+        let breed = library::breed(&world.table, id).expect(id);
+        let [middle, aside] = upper_lid(&mut world, &breed, 0.0);
+        let open = middle - aside;
+        for (closed, least) in KEPT {
+            let [middle, aside] = upper_lid(&mut world, &breed, closed);
+            let kept = (middle - aside) / open;
+            println!("{id:16} closed {closed}: {kept:.2} of its arch");
+            assert!(kept > least, "{id}: closed {closed}, {kept:.2} of the arch of an open eye");
+        }
+    }
+}
+
+/// How much lower over the margin of a raised upper lip the skin beside it lies than at rest, at most, millimetres on the
+/// 200 mm head.
+const CURTAIN: f32 = 4.5;
+
+#[test]
+fn skin_hangs_before_the_teeth_that_a_raised_lip_bares() {
+    let mut world = World::new();
+    let snarl = world.library.units.find("AU109_110").expect("it is there").0;
+    let mut asked = Activation::default();
+    *asked.get_mut(snarl) = [1.0; 2];
+    for id in BREEDS {
+        let breed = library::breed(&world.table, id).expect(id);
+        let unit_m = world.unit(&breed);
+        let rig = world.pipeline.rig().clone();
+        let rows = rig.plan().handles().s;
+        let mut beside = |pose: Pose| {
+            world.pipeline.set_pose(pose);
+            let frame = world.pipeline.update(&breed);
+            [4, 5, 6].map(|i| frame.control[usize::from(rows[i][8])].y - frame.control[usize::from(rows[i][9])].y)
+        };
+        let rest = beside(Pose::default());
+        let raised = beside(world.library.pose_of(&asked));
+        for (rest, raised) in rest.into_iter().zip(raised) {
+            let lower = (rest - raised) / unit_m;
+            println!("{id:16} {lower:.1} mm lower over the margin");
+            assert!(lower < CURTAIN, "{id}: {lower:.1} mm");
+        }
+    }
+}
+
 /// Up for back at most, and what a lip that is raised beside it brings along, millimetres on the 200 mm head: the zygomaticus
 /// of a dog runs back to the ear and no cheek lifts its corner, as it does in man.
 const UP: (f32, f32) = (0.5, 1.0);

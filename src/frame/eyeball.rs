@@ -95,8 +95,8 @@ fn shade(ring: usize, segment: usize, iris: Vec3) -> Vec3 {
     }
     if ring > 11 {
         // Sclera, brown towards the limbus.
-        let t = ((degrees - IRIS) / 40.0).clamp(0.0, 1.0);
-        return vec3(0.15, 0.095, 0.075).lerp(vec3(0.55, 0.47, 0.42), t);
+        let t = ((degrees - IRIS) / 20.0).clamp(0.0, 1.0);
+        return vec3(0.15, 0.095, 0.075).lerp(vec3(0.63, 0.56, 0.51), t);
     }
     // Fibres: a fixed pattern around the axis; paler in the middle, a dark ring at the limbus.
     let t = (degrees - PUPIL) / (IRIS - PUPIL);

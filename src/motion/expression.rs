@@ -15,7 +15,7 @@ pub struct Expression {
     pub still_s: f64,
     /// What it is made of.
     pub parts: Vec<Part>,
-    /// What no unit moves: pupils.
+    /// What no unit moves, as pupils, or what a unit is part of, as the level of a face.
     pub beside: Vec<Beside>,
 }
 

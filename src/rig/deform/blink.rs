@@ -2,7 +2,9 @@
 //! slide over it.
 //!
 //! The upper lid goes most of the way (in dogs as in man the levator opens and closes the eye; the lower lid follows).
-//! Shut lids are found once for a head; between open and shut every vertex turns evenly.
+//! Shut lids are found once for a head. Between open and shut the upper margin keeps its arch and drops, so the slit
+//! closes from its corners: if all of it went as great a part of its way, it would be a straight line halfway, which
+//! reads as anger.
 
 use super::DeformPlan;
 use crate::math::ops;
@@ -11,7 +13,7 @@ use crate::rig::handles::Handles;
 use glam::Vec3;
 
 /// The part of the slit that the upper lid closes.
-const UPPER: f32 = 0.86;
+const UPPER: f32 = 0.78;
 /// How much of its margin's turn the fold of a lid makes: the skin over the ball lies on three rows, not two.
 const FOLLOWS: f32 = 0.6;
 /// The least part of the way from a shut margin to the orbit's loop at which the fold lies, where it was open so far, and
@@ -42,6 +44,15 @@ const RAISED: f32 = 0.3;
 const FOLD_FOLLOWS: f32 = 0.5;
 /// How much of the slit the upper lid closes at most as it follows the gaze down.
 const MOST_DOWN: f32 = 0.7;
+/// How much sooner than in the middle of the slit the lids meet towards its corners, where their way is shorter: at 1 the
+/// margin starts to drop as it is. More than 1, as the line in which the lids meet is hollow and the arch would sink into it.
+const ARCHED: f32 = 2.2;
+/// The middle is behind as its corners are ahead, so that half closed is half of what is seen of the ball.
+const MIDDLE: f32 = 0.75;
+/// How much sooner on the lateral side: the arch is highest a little towards the nose.
+const LATERAL: f32 = 0.4;
+/// How much sooner than the upper lid the lower one is where it goes.
+const LOWER_LEADS: f32 = 1.7;
 /// Rounds in which the margins find each other.
 const ROUNDS: usize = 6;
 
@@ -122,8 +133,21 @@ pub fn place(
     if lids.closed > 0.0 {
         shut(plan, &hinge, rest, at);
     }
+    let ways: [f32; 6] = std::array::from_fn(|k| {
+        let [open, shut] = [rest, &**at].map(|at| hinge.turned(at[usize::from(h.er[k])]).angle);
+        (open - shut).abs().max(1e-3)
+    });
+    let longest = ways[1..].iter().copied().fold(0.0, f32::max);
+    let closing = |k: usize| {
+        let column = k.min(12 - k);
+        let sooner =
+            MIDDLE * ops::powf(longest / ways[column], ARCHED) * (1.0 + LATERAL * (column as f32 - 3.0).max(0.0));
+        let sooner = if k < 6 { sooner } else { sooner * LOWER_LEADS };
+        1.0 - ops::powf(1.0 - lids.closed.clamp(0.0, 1.0), sooner)
+    };
     for k in (1..12).filter(|k| k % 6 != 0) {
         let is_upper = k < 6;
+        let closed = closing(k);
         // The middle of a lid goes farthest; what looks down does not shut the eye.
         let middle = ops::sin(core::f32::consts::PI * (k % 6) as f32 / 6.0);
         let [own, other] = [h.er[k], h.er[12 - k]].map(|v| hinge.turned(rest[usize::from(v)]).angle);
@@ -135,7 +159,7 @@ pub fn place(
             let v = usize::from(row[k]);
             let (mut open, shut) = (hinge.turned(rest[v]), hinge.turned(at[v]));
             open.angle += turn * part;
-            let mix = |a: f32, b: f32| a + (b - a) * lids.closed;
+            let mix = |a: f32, b: f32| a + (b - a) * closed;
             let p = hinge.place(Turned {
                 along: mix(open.along, shut.along),
                 away: mix(open.away, shut.away),

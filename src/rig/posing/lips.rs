@@ -11,6 +11,8 @@ const REACH: f32 = 2.4;
 const LOWER: f32 = 0.3;
 /// How far a cheek is puffed out around the muzzle's side.
 const PUFF: f32 = 5.0;
+/// How much of the margin's way the skin beside it makes at least: as far as a lip is thick, both are one.
+const BESIDE: f32 = 0.75;
 /// How much a lip that parts turns outwards for its way up or down.
 const CURL: f32 = 0.35;
 
@@ -28,6 +30,7 @@ impl Lips {
         let rows = |skin: [u16; 20], lining: &[[u16; 4]; 11], own: &dyn Fn(usize, usize) -> Vec<u16>| {
             let from: Vec<(u32, f32)> = (3..10).map(|i| (u32::from(skin[i]), 0.0)).collect();
             let ways = neighbours.ways(base, &from, REACH);
+            let of = |v: u16| ways.get(usize::from(v)).copied().unwrap_or(f32::INFINITY);
             let mut out = Vec::new();
             for (i, lining) in lining.iter().enumerate().skip(3) {
                 // It tapers to the corner of the mouth.
@@ -38,10 +41,10 @@ impl Lips {
                         out.push((u32::from(v), w));
                     }
                 };
-                (5..15)
-                    .flat_map(|j| own(i, j))
-                    .filter(|&v| v != NONE)
-                    .for_each(|v| add(v, fade(ways[usize::from(v)], REACH)));
+                for j in 5..15 {
+                    let least = if j == 8 { BESIDE } else { 0.0 };
+                    own(i, j).into_iter().for_each(|v| add(v, fade(of(v), REACH).max(least)));
+                }
                 // The lining goes with the margin, so that it never hangs below it.
                 add(lining[1], 1.0);
                 add(lining[2], 0.9);
@@ -85,7 +88,8 @@ impl Lips {
                 }
             }
         };
-        push(&self.upper, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, 1.0, CURL * normals[v].z), true);
+        // The upper lip has nothing in front of it but the nose.
+        push(&self.upper, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, 1.0, 0.0), true);
         push(&self.lower, Channel::LipsPart, &|v| vec3(CURL * normals[v].x, -1.0, CURL * normals[v].z) * LOWER, true);
         push(&self.cheek, Channel::CheekPuff, &|v| normals[v], true);
         push(&self.flew, Channel::FlewSway, &|_| Vec3::X, false);

@@ -9,7 +9,7 @@ use crate::mesh::VertexId;
 use crate::motion::{Kind, Muscle, MuscleTable, Wrinkles};
 use crate::rig::bone::{LANDMARKS, Targets};
 use crate::rig::{HalfMesh, Place, RigError, SkinLandmark};
-use glam::Vec3;
+use glam::{Vec3, vec3};
 
 /// Head units of the base head for a millimetre of a head with a skull of 200 mm.
 const BASE_MM: f32 = 0.1;
@@ -19,6 +19,8 @@ const SHARED: f32 = 0.8;
 const THROWN_UP: f32 = 9.0;
 /// Part of a pull into the head that the tissue below takes back.
 const INWARDS: f32 = 1.05;
+/// How much of it counts in front of the teeth.
+const FLAT: f32 = 0.8;
 /// How much the lining at the corner of the mouth goes with it.
 const CORNER: f32 = 0.7;
 /// Weakest pull that counts.
@@ -55,6 +57,8 @@ struct Bound {
     vertices: Vec<u32>,
     /// Those of the lips and their lining.
     lips: Vec<u32>,
+    /// Those of the muzzle's side: where they look down, a lip hangs below them and no bone.
+    hanging: Vec<u32>,
     /// For each of them and each insertion, how much it is pulled.
     weights: Vec<f32>,
 }
@@ -80,7 +84,7 @@ pub struct Pulls {
 /// How freely the skin of a region slides over the bone, 0 to 1.
 fn looseness(region: Region) -> f32 {
     match region {
-        Region::Nose | Region::Crown => 0.5,
+        Region::Nose | Region::Nostril | Region::Crown => 0.5,
         Region::Temple => 0.6,
         Region::Bridge | Region::Stop => 0.75,
         Region::Orbit | Region::Forehead | Region::LowerJaw => 0.9,
@@ -156,8 +160,10 @@ impl MusclePlan {
             }
             let is_lip = |v: &u32| matches!(regions[*v as usize], Region::UpperLip | Region::LowerLip | Region::Mouth);
             let lips = vertices.iter().copied().filter(is_lip).collect();
+            let hangs = |v: &u32| matches!(regions[*v as usize], Region::WhiskerPad | Region::MuzzleSide);
+            let hanging = vertices.iter().copied().filter(hangs).collect();
             let Muscle { kind, pull_mm, gather, wrinkles, .. } = *m;
-            Ok(Bound { kind, path, insertion, pull_mm, gather, wrinkles, vertices, lips, weights })
+            Ok(Bound { kind, path, insertion, pull_mm, gather, wrinkles, vertices, lips, hanging, weights })
         });
         Ok(Self { bound: bound.collect::<Result<_, RigError>>()?, mirror: mirror.to_vec() })
     }
@@ -210,8 +216,10 @@ impl MusclePlan {
                     // Skin slides over what lies under it, and does not go into it.
                     let way = way * (most / sum.max(1e-6));
                     let n = normals[v as usize];
-                    // A lip's edge looks down, and may rise.
+                    // A lip's edge looks down, and may rise; so may what goes over into it, or the skin would hang before
+                    // the edge like a curtain. In front a lip is thick, and is drawn flat against the teeth.
                     let n = if m.lips.contains(&v) { n.with_y(0.0) } else { n };
+                    let n = if m.hanging.contains(&v) { vec3(n.x, n.y.max(0.0), FLAT * n.z) } else { n };
                     let way = way - n * (INWARDS * way.dot(n).min(0.0));
                     out.entries.push((v, way * pull));
                 }
