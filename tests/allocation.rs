@@ -7,7 +7,7 @@ use std::cell::Cell;
 use glam::Vec3;
 use londra::mesh::shapes::cabinet;
 #[cfg(feature = "head")]
-use londra::motion::{Act, Build, Cue, Library, Life, Mixed, Stimulus, Temper};
+use londra::motion::{Act, Activation, Build, Cue, Library, Life, Mixed, Side, Stimulus, Temper};
 use londra::subdiv::{Evaluator, Plan, Scheme};
 
 thread_local! {
@@ -87,6 +87,84 @@ fn a_pose_in_the_steady_state_allocates() {
     });
     assert_eq!(n, 0);
     assert!(overruled > 0, "rules were at work");
+}
+
+#[cfg(feature = "head")]
+#[test]
+fn posing_a_head_in_the_steady_state_allocates() {
+    use londra::anatomy::{ParamTable, library};
+    use londra::rig::{Deformed, Rig, deform::ROUNDS};
+
+    let table = ParamTable::embedded().expect("the embedded table is tested");
+    let rig = Rig::embedded(&table).expect("the embedded rig is tested");
+    let library = Library::embedded().expect("tables that can be read");
+    let mut pressed = vec![Vec3::ZERO; rig.mesh().n_vertices()];
+    for id in ["german_shepherd", "basset", "pug"] {
+        let breed = library::breed(&table, id).expect("an embedded breed");
+        let mut head = Deformed::default();
+        rig.deform(&breed.values, ROUNDS, &mut head);
+        let mut act = Act::new(Build::of(&table, &breed.values));
+        act.life = Some(Life::new(1, Temper { blinks_per_min: 60.0, ..Temper::default() }));
+        // Once, to make the buffers: shut lids, and a mouth as wide open as it goes, where most skin is kept off bone.
+        let mut wide = Activation::default();
+        for unit in ["AU27", "AU143"] {
+            wide.set(library.units.find(unit).expect("a unit").0, Side::Both, 1.0);
+        }
+        rig.pose(&breed.values, &library.pose_of(&wide), &mut head);
+        let mut moved = 0;
+        let mut step = |act: &mut Act, time: f64| {
+            let pose = act.pose(&library, time, |_| Stimulus { heat: 0.5, ..Stimulus::default() }, |_| ());
+            rig.pose(&breed.values, &pose, &mut head);
+            moved += usize::from(rig.pressed(&breed.values, &pose, &mut head, &mut pressed));
+            std::hint::black_box(&head.control);
+        };
+        for expression in 0..library.expressions.len() {
+            let mixed = Mixed { expression, weight: 1.0, start: Some(0.0) };
+            act.expressions = vec![mixed];
+            act.player = Default::default();
+            act.restart();
+            let seconds = library.expressions[expression].seconds();
+            let n = allocations(|| (0..20).for_each(|k| step(&mut act, seconds * f64::from(k) / 20.0)));
+            assert_eq!(n, 0, "{id}, {}", library.expressions[expression].id);
+        }
+        for clip in 0..library.clips.len() {
+            act.expressions = vec![Mixed { expression: clip % library.expressions.len(), weight: 0.3, start: None }];
+            act.player = Default::default();
+            act.player.layer(Cue::new(&library, clip, 0.0, 0.1));
+            act.restart();
+            let seconds = library.clips[clip].seconds;
+            let n = allocations(|| (0..60).for_each(|k| step(&mut act, seconds * f64::from(k) / 60.0)));
+            assert_eq!(n, 0, "{id}, {}", library.clips[clip].id);
+        }
+        assert!(moved > 0, "skin was pressed");
+    }
+}
+
+/// A posed frame lends out a list of its parts, which is all that it makes.
+#[cfg(feature = "head")]
+#[test]
+fn a_posed_frame_allocates_more_than_its_list_of_parts() {
+    use londra::anatomy::{ParamTable, library};
+    use londra::frame::{Layers, Pipeline};
+    use londra::rig::Rig;
+    use std::sync::Arc;
+
+    let table = ParamTable::embedded().expect("the embedded table is tested");
+    let rig = Arc::new(Rig::embedded(&table).expect("the embedded rig is tested"));
+    let breed = library::breed(&table, "german_shepherd").expect("an embedded breed");
+    let library = Library::embedded().expect("tables that can be read");
+    let mut pipeline = Pipeline::new(rig, 3).expect("a level that is allowed");
+    pipeline.set_layers(Layers::default().with_open_mouth()).expect("the embedded meshes are tested");
+    let anger = library.expression("anger").expect("an expression");
+    let mut frame = |k: u32| {
+        let moment = anger.moment(anger.seconds() * f64::from(k) / 30.0);
+        pipeline.set_pose(library.pose(&moment, 0.0, |_| ()));
+        pipeline.update(&breed).parts.len()
+    };
+    frame(15);
+    let list = allocations(|| _ = std::hint::black_box(frame(15)));
+    let n = allocations(|| (0..30).for_each(|k| _ = std::hint::black_box(frame(k))));
+    assert_eq!(n, 30 * list, "a frame that is shown again makes {list}");
 }
 
 #[cfg(feature = "head")]

@@ -628,3 +628,22 @@ fn a_clip_does_not_play_stop_or_step() {
     harness.run();
     assert!(harness.state().motion.timeline().0 > stopped);
 }
+
+#[test]
+fn an_expression_does_not_take_its_course_by_key() {
+    let mut harness = harness();
+    harness.get_by_label("Motion").click();
+    harness.run();
+    let anger = harness.state().motion.library.expressions.iter().position(|e| e.id == "anger").unwrap();
+    harness.state_mut().motion.show_expression(anger);
+    harness.run();
+    assert_eq!(harness.state().motion.timeline().1, None);
+    harness.key_press(egui::Key::Space);
+    (0..10).for_each(|_| harness.step());
+    let (time, length) = harness.state().motion.timeline();
+    assert!(time > 0.05 && length == Some(harness.state().motion.library.expressions[anger].seconds()), "{time}");
+    harness.key_press(egui::Key::T);
+    harness.run_steps(2);
+    assert!(!harness.state().motion.takes_course());
+    assert_eq!(harness.state().motion.timeline().1, None);
+}

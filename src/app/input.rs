@@ -20,6 +20,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("M", "measurements of the head"),
     ("U", "what the head does: units, expressions, clips"),
     ("Space", "play, pause"),
+    ("T", "expressions in time, or standing still"),
     (", and .", "one frame back, one on"),
     ("+, −", "finer, coarser"),
     ("Ctrl+Z", "undo"),
@@ -99,7 +100,10 @@ pub fn keys(state: &mut EditorState, ctx: &egui::Context) {
         state.toggle_motion();
     }
     if pressed(Key::Space) {
-        state.motion.is_playing = !state.motion.is_playing;
+        state.motion.play_or_pause();
+    }
+    if pressed(Key::T) {
+        state.motion.set_course(!state.motion.takes_course());
     }
     if pressed(Key::Comma) {
         state.motion.step(-1);

@@ -3,7 +3,8 @@
 
 use crate::anatomy::{Breed, ParamTable};
 use crate::motion::{
-    Act, Activation, Build, Channel, Cue, Group, Library, Life, Mixed, MotionError, Overruled, Pose, Stimulus, Temper,
+    Act, Activation, Build, Channel, Clip, Cue, Group, Library, Life, Mixed, MotionError, Overruled, Pose, Stimulus,
+    Temper,
 };
 
 /// The motion of one head.
@@ -17,7 +18,7 @@ pub struct Motion {
     pub one_sided: bool,
     /// Time passes.
     pub is_playing: bool,
-    /// A clip that is over starts anew.
+    /// What is over starts anew.
     pub loops: bool,
     /// Times as fast as a clock, 0.05 to 4.
     pub speed: f64,
@@ -29,6 +30,8 @@ pub struct Motion {
     time: f64,
     /// The clip that plays.
     clip: Option<usize>,
+    /// Expressions come and go as their recipes have it; else they stand still where they show themselves best.
+    takes_course: bool,
     /// The unit that is shown alone, and the units and expressions before.
     before_solo: Option<(usize, Activation, Vec<Mixed>)>,
     /// What the text field has, and what is wrong with it.
@@ -49,6 +52,7 @@ pub struct Asked {
     direct: Pose,
     expressions: Vec<Mixed>,
     clip: Option<usize>,
+    takes_course: bool,
     is_alive: bool,
     follows_pointer: bool,
     heat: f32,
@@ -81,6 +85,7 @@ impl Motion {
             stimulus: Stimulus::default(),
             time: 0.0,
             clip: None,
+            takes_course: false,
             before_solo: None,
             typed: String::new(),
             is_typing: false,
@@ -109,6 +114,7 @@ impl Motion {
             direct: self.act.direct,
             expressions: self.act.expressions.clone(),
             clip: self.clip,
+            takes_course: self.takes_course,
             is_alive: self.is_alive(),
             follows_pointer: self.follows_pointer,
             heat: self.stimulus.heat,
@@ -116,22 +122,23 @@ impl Motion {
         }
     }
 
-    /// Asks for what was asked for before. A clip that plays goes on playing.
+    /// Asks for what was asked for before. What plays goes on playing.
     pub fn restore(&mut self, asked: &Asked) {
-        let goes_on = self.is_playing && self.clip == asked.clip;
+        let goes_on = self.is_playing && (self.clip, self.takes_course) == (asked.clip, asked.takes_course);
         let (time, was_playing) = (if goes_on { self.time } else { asked.time }, self.is_playing);
         (self.act.units, self.act.direct) = (asked.units, asked.direct);
         self.act.expressions.clone_from(&asked.expressions);
         if self.clip != asked.clip {
             self.set_clip(asked.clip);
         }
+        self.takes_course = asked.takes_course;
         if self.is_alive() != asked.is_alive {
             self.set_alive(asked.is_alive);
         }
         self.follows_pointer = asked.follows_pointer;
         self.stimulus.heat = asked.heat;
         self.time = time;
-        self.is_playing = was_playing && (self.clip.is_some() || asked.is_alive);
+        self.is_playing = was_playing && (self.clip.is_some() || self.takes_course || asked.is_alive);
         self.before_solo = None;
         self.write_notation();
     }
@@ -178,6 +185,7 @@ impl Motion {
         (self.act.units, self.act.direct) = Default::default();
         self.act.expressions.clear();
         self.before_solo = None;
+        self.takes_course = false;
         self.set_clip(None);
         self.set_alive(false);
         (self.is_playing, self.follows_pointer, self.stimulus) = (false, false, Stimulus::default());
@@ -205,22 +213,59 @@ impl Motion {
         mixed.map_or(0.0, |mixed| mixed.weight)
     }
 
-    /// Mixes in an expression as it shows itself best; 0 takes it out.
+    /// Mixes in an expression; 0 takes it out.
     pub fn set_weight(&mut self, expression: usize, weight: f32) {
         self.before_solo = None;
         self.act.expressions.retain(|mixed| mixed.expression != expression);
         if weight > 0.0 {
-            self.act.expressions.push(Mixed { expression, weight: weight.min(1.0), start: None });
+            let start = self.takes_course.then_some(0.0);
+            self.act.expressions.push(Mixed { expression, weight: weight.min(1.0), start });
         }
         // The order in which they were touched is none of the sum's business.
         self.act.expressions.sort_by_key(|mixed| mixed.expression);
     }
 
-    /// Shows an expression alone, or nothing where it is shown alone already.
+    /// Shows an expression alone, from its start where it takes its course, or nothing where it is shown alone already.
     pub fn show_expression(&mut self, expression: usize) {
         let is_alone = self.act.expressions.len() == 1 && self.weight(expression) == 1.0;
         self.act.expressions.clear();
         self.set_weight(expression, if is_alone { 0.0 } else { 1.0 });
+        if self.takes_course && !is_alone {
+            self.begin();
+        }
+    }
+
+    /// Whether expressions come and go as their recipes have it.
+    pub fn takes_course(&self) -> bool {
+        self.takes_course
+    }
+
+    /// Lets expressions take their course, from its start, or stand still where they show themselves best.
+    pub fn set_course(&mut self, takes_course: bool) {
+        self.takes_course = takes_course;
+        self.act.expressions.iter_mut().for_each(|mixed| mixed.start = takes_course.then_some(0.0));
+        if takes_course {
+            self.begin();
+        }
+    }
+
+    /// Time passes or stands still. Where nothing but expressions is there that could go on, they do.
+    pub fn play_or_pause(&mut self) {
+        if !self.is_playing && self.clip.is_none() && !self.is_alive() && !self.act.expressions.is_empty() {
+            if !self.takes_course {
+                return self.set_course(true);
+            }
+            if self.length().is_some_and(|length| self.time >= length) {
+                return self.begin();
+            }
+        }
+        self.is_playing = !self.is_playing;
+    }
+
+    /// From the start.
+    fn begin(&mut self) {
+        (self.time, self.is_playing) = (0.0, true);
+        self.act.restart();
     }
 
     /// The clip that plays.
@@ -254,10 +299,26 @@ impl Motion {
         self.act.restart();
     }
 
-    /// Seconds from the start, and, where a clip plays, its length.
+    /// Seconds from the start, and, where a clip plays or expressions take their course, how long the longest of them takes.
     pub fn timeline(&self) -> (f64, Option<f64>) {
-        let Some(clip) = self.clip.and_then(|clip| self.library.clips.get(clip)) else { return (self.time, None) };
-        (clip.local_time(self.time), Some(clip.seconds))
+        match (self.length(), self.endless()) {
+            (None, _) => (self.time, None),
+            (length, Some(clip)) => (clip.local_time(self.time), length),
+            (Some(length), None) => (self.time.min(length), Some(length)),
+        }
+    }
+
+    fn length(&self) -> Option<f64> {
+        let clip = self.clip.and_then(|clip| self.library.clips.get(clip)).map(|clip| clip.seconds);
+        let courses = self.act.expressions.iter().filter(|mixed| mixed.start.is_some());
+        let courses = courses.filter_map(|mixed| self.library.expressions.get(mixed.expression)).map(|e| e.seconds());
+        clip.into_iter().chain(courses).reduce(f64::max).filter(|&length| length > 0.0)
+    }
+
+    /// A clip that repeats by itself, with nothing beside it that ends.
+    fn endless(&self) -> Option<&Clip> {
+        let is_alone = self.act.expressions.iter().all(|mixed| mixed.start.is_none());
+        self.clip.and_then(|clip| self.library.clips.get(clip)).filter(|clip| clip.repeats && is_alone)
     }
 
     /// Goes to a time.
@@ -278,13 +339,11 @@ impl Motion {
             return;
         }
         self.time += seconds.clamp(0.0, LONGEST_SECS) * self.speed;
-        let Some(clip) = self.clip.and_then(|clip| self.library.clips.get(clip)).filter(|clip| !clip.repeats) else {
-            return;
-        };
-        if self.time > clip.seconds {
+        let Some(length) = self.length().filter(|_| self.endless().is_none()) else { return };
+        if self.time > length {
             match self.loops {
-                true => self.time = self.time.rem_euclid(clip.seconds),
-                false => (self.time, self.is_playing) = (clip.seconds, self.is_alive()),
+                true => self.time = self.time.rem_euclid(length),
+                false => (self.time, self.is_playing) = (length, self.is_alive()),
             }
         }
     }
@@ -357,6 +416,48 @@ mod tests {
     }
 
     #[test]
+    fn an_expression_stands_still_though_time_passes() {
+        let mut motion = motion();
+        let number = |motion: &Motion, id: &str| motion.library.expressions.iter().position(|e| e.id == id).unwrap();
+        let [anger, fear] = ["anger", "fear"].map(|id| number(&motion, id));
+        let (table, still) = (ParamTable::embedded().unwrap(), motion.library.expressions[anger].still_s);
+        let breed = Breed::defaults(&table);
+        motion.show_expression(anger);
+        assert_eq!((motion.timeline().1, motion.is_playing), (None, false), "it stands still until somebody plays it");
+        let best = motion.pose(&table, &breed);
+        motion.play_or_pause();
+        let seconds = motion.library.expressions[anger].seconds();
+        assert_eq!((motion.timeline(), motion.is_playing, motion.takes_course()), ((0.0, Some(seconds)), true, true));
+        assert!(motion.pose(&table, &breed).is_rest(), "it begins at rest");
+        motion.pass(0.2);
+        let coming = motion.pose(&table, &breed);
+        assert!(!coming.is_rest() && coming != best);
+        motion.scrub(still);
+        let there = motion.act.asked(&motion.library, motion.time);
+        assert_eq!(there.units, motion.library.expressions[anger].still());
+        // Mixed by weight, with the longer of both as its length.
+        motion.set_weight(fear, 0.5);
+        let length = [anger, fear].map(|e| motion.library.expressions[e].seconds()).into_iter().fold(0.0, f64::max);
+        assert_eq!(motion.timeline().1, Some(length));
+        // To its end and round again, or to its end and no further.
+        motion.play_or_pause();
+        (0..400).for_each(|_| motion.pass(0.05));
+        assert!(motion.is_playing && motion.timeline().0 <= length);
+        motion.loops = false;
+        (0..400).for_each(|_| motion.pass(0.05));
+        assert_eq!((motion.timeline().0, motion.is_playing), (length, false));
+        assert_eq!(motion.act.asked(&motion.library, motion.time).units, Activation::default(), "over");
+        motion.play_or_pause();
+        assert_eq!((motion.timeline().0, motion.is_playing), (0.0, true), "from its start");
+        // A clip that repeats goes on beside it, and without it has no end.
+        let pant = motion.library.clips.iter().position(|c| c.id == "pant").unwrap();
+        motion.set_clip(Some(pant));
+        assert_eq!(motion.timeline().1, Some(length));
+        motion.set_course(false);
+        assert_eq!(motion.timeline().1, Some(motion.library.clips[pant].seconds));
+    }
+
+    #[test]
     fn time_runs_beyond_a_clip_or_stands_still_while_it_plays() {
         let mut motion = motion();
         let yawn = motion.library.clips.iter().position(|c| c.id == "yawn").unwrap();
@@ -370,6 +471,7 @@ mod tests {
         motion.step(-1);
         assert!((motion.timeline().0 - 3.2 + FRAME_SECS).abs() < 1e-9);
         motion.reset();
+        assert!(motion.timeline().1.is_none());
         let table = ParamTable::embedded().unwrap();
         assert!(motion.pose(&table, &Breed::defaults(&table)).is_rest());
     }

@@ -84,7 +84,7 @@ fn notation(motion: &mut Motion, ui: &mut egui::Ui) {
     }
 }
 
-/// Which clip, and where in it.
+/// Which clip, whether expressions take their course, and where in it.
 fn timeline(motion: &mut Motion, ui: &mut egui::Ui) {
     ui.horizontal_wrapped(|ui| {
         let label = ui.label("Clip");
@@ -106,17 +106,23 @@ fn timeline(motion: &mut Motion, ui: &mut egui::Ui) {
             motion.set_clip(clip);
         }
         if ui.button(if motion.is_playing { "Pause" } else { "Play" }).on_hover_text("Space").clicked() {
-            motion.is_playing = !motion.is_playing;
+            motion.play_or_pause();
         }
         for (name, frames, hint) in [("◀", -1, "A frame back (,)"), ("▶", 1, "A frame on (.)")] {
             if ui.button(name).on_hover_text(hint).clicked() {
                 motion.step(frames);
             }
         }
-        ui.checkbox(&mut motion.loops, "loop").on_hover_text("A clip that is over starts anew");
+        ui.checkbox(&mut motion.loops, "loop").on_hover_text("What is over starts anew");
         let label = ui.label("Speed");
         let speed = egui::DragValue::new(&mut motion.speed).range(0.05..=4.0).speed(0.01).suffix(" ×");
         ui.add(speed).labelled_by(label.id);
+        let mut course = motion.takes_course();
+        let hint =
+            "Expressions come, stay and go as their recipes have it (T); else they stand still where they show best";
+        if ui.checkbox(&mut course, "expressions in time").on_hover_text(hint).changed() {
+            motion.set_course(course);
+        }
     });
     let (mut time, length) = motion.timeline();
     if let Some(length) = length {
