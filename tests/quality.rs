@@ -363,7 +363,8 @@ fn a_lid_closes_on_one_side_alone_or_opens_on_the_way() {
         let both = pose(0.7, 0.7);
         for (v, &image) in images.iter().enumerate() {
             let (p, q) = (both[v], both[image as usize]);
-            assert!(p.x == -q.x && p.y == q.y && p.z == q.z, "{}: {p} and {q}", breed.id);
+            // Skin that is kept off bone goes what all around it lacks, summed in another order on the other side.
+            assert!(p.distance(q * Vec3::new(-1.0, 1.0, 1.0)) < 1e-7, "{}: {p} and {q}", breed.id);
         }
         let [left, right] = [pose(0.7, 0.0), pose(0.0, 0.7)];
         assert_eq!(bits(&left[..n]), bits(&both[..n]), "{}: the left lids ask for the right ones", breed.id);
