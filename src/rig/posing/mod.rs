@@ -46,6 +46,9 @@ pub struct PosePlan {
     ears: Ears,
     /// One for each vertex of the whole mesh: how much of the mandible's turn it makes, and of the head's.
     jaw: Vec<f32>,
+    /// How much of the way back of the corner of the mouth each vertex makes; the left corner.
+    drawn: Vec<f32>,
+    corner: usize,
     off_bone: OffBone,
     neck: Vec<f32>,
     /// Numbers of the muscles that close the jaws.
@@ -115,6 +118,7 @@ impl PosePlan {
         images.iter().enumerate().for_each(|(v, &image)| mirror[image as usize] = v as u32);
         let table = MuscleTable::embedded()?;
         let jaw = jaw::weights(h, images, &neighbours, n);
+        let drawn = jaw::drawn(h, images, &neighbours, &base);
         let neck = neck::weights(h, images, &neighbours, n);
         let mut is_lid = vec![false; n];
         deform::lid_vertices(h).for_each(|v| [v, mirror[v] as usize].into_iter().for_each(|v| is_lid[v] = true));
@@ -135,6 +139,8 @@ impl PosePlan {
                 |v| neck[v] == neck::END || is_corner(v),
             ),
             jaw,
+            drawn,
+            corner: corner as usize,
             neck,
             closers: ["masseter", "temporalis"].map(|id| table.index_of(id)),
             table,
@@ -260,8 +266,12 @@ impl PosePlan {
         self.lids(plan, head, half, (eye, &eyes), pose, (scratch, control));
         let jaw = jaw::mandible(head.hinge, head.unit, pose);
         if !jaw.is_rest() {
-            for (p, &w) in control.iter_mut().zip(&self.jaw).filter(|(_, w)| **w > 0.0) {
+            let back = jaw::back((head.rest[self.corner] - head.hinge).with_x(0.0).length(), pose);
+            for ((p, &w), &drawn) in control.iter_mut().zip(&self.jaw).zip(&self.drawn).filter(|((_, w), _)| **w > 0.0)
+            {
                 *p = jaw::turned(head.hinge, head.unit, pose, w).point(*p);
+                let to = (head.hinge - *p).with_x(0.0).normalize_or_zero();
+                *p += to * (back * drawn);
             }
         }
         if let Some((shape, surface)) = &head.surface {
