@@ -12,11 +12,11 @@ use crate::rig::handles::{Handles, NONE};
 use glam::{Mat3, Vec3, vec3};
 
 /// Where the corner of the mouth goes, as a part of the mandible's turn: nearer to the upper lip, which is longer there.
-const CORNER: f32 = 0.34;
+const CORNER: f32 = 0.22;
 const ROUNDS: usize = 400;
 /// How far the corner of the mouth is drawn back in a mouth that opens at a right angle, as a part of its way from the hinge:
 /// its fold is taut between the jaws.
-const DRAWN: f32 = 0.6;
+const DRAWN: f32 = 0.4;
 /// How far from the corner skin follows it, head units of the base head. Flews hang farther below it, and beside the mandible.
 const REACH: f32 = 3.5;
 
