@@ -549,7 +549,9 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
             light = eye(point, colour);
         }
         case CAP: {
-            light = colour * diffuse(point, 0.3);
+            // The end of a neck is haired, that of a plain mesh is not.
+            let hairy = haired(point, in, max(length(dpdx(in.rest)), length(dpdy(in.rest))));
+            light = mix(colour * diffuse(point, 0.3), hairy, clamp(in.surface.x, 0.0, 1.0));
         }
         case SMOOTH: {
             light = colour * diffuse(point, 0.2) + moisture(point, gloss);

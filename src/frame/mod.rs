@@ -1,6 +1,7 @@
 //! Breed to drawable parts: deform, evaluate, normals, colours, hashes.
 
 mod canvas;
+mod cap;
 mod dyes;
 mod eyeball;
 mod eyelids;

@@ -28,7 +28,7 @@ pub enum Material {
     Iris,
     /// The opening in it.
     Pupil,
-    /// The flat cap that closes the neck.
+    /// What closes the neck.
     Cap,
     /// Skull and mandible.
     Bone,

@@ -12,13 +12,13 @@ use super::folds::Folds;
 use super::layers::Layers;
 use super::mouth::MouthParts;
 use super::muscles::MuscleParts;
-use super::parts::{Frame, Material, MaterialRange, PartTopology, Revisions};
+use super::parts::{Frame, Material, Revisions};
 use super::skeleton::Skeleton;
 use super::uv::Uv;
 use super::values::Values;
 use super::whiskers::WhiskerParts;
 use super::wrinkles::wrinkle;
-use super::{StageHashes, eyeball, skin};
+use super::{StageHashes, cap, eyeball, skin};
 use crate::anatomy::{Breed, Look};
 use crate::coat::{self, Coat, Groom, Root};
 use crate::math::fnv::Fnv64;
@@ -177,7 +177,7 @@ impl Pipeline {
         skin.rest = rest.into_iter().map(|p| p * CENTIMETRE).collect();
         [
             skin,
-            Values::new(cap_topology(plan)),
+            Values::new(cap::topology(plan)),
             Values::new(eyeball::topology("eye_L")),
             Values::new(eyeball::topology("eye_R")),
         ]
@@ -415,7 +415,7 @@ impl Pipeline {
         self.is_wrinkled |= self.folds.is_there();
         self.rig.flow(&self.deformed.control, &mut self.control_flow);
         self.evaluator.evaluate_attribute(&self.plan, &self.control_flow, &mut skin.flow);
-        place_cap(&self.plan, &skin.positions, cap);
+        cap::place(&self.plan, skin, cap);
         let possible = self.rig.posing().possible(&self.pose);
         self.widened = possible.channel(Channel::Pupil).map(eyeball::widened);
         for ((eye, &widened), part) in self.deformed.eyes.iter().zip(&self.widened).zip([left, right]) {
@@ -452,7 +452,7 @@ impl Pipeline {
         let hairs = (&roots[..], skin.topology.indices.as_chunks::<3>().0);
         self.dyes.paint(&self.rig, &self.plan, look, hairs, self.threads, &mut skin.colours, of_hair);
         self.whiskers.paint(&skin.colours);
-        cap.colours.fill(rim_colour(&self.plan, &skin.colours) * 0.35);
+        cap::paint(&self.plan, skin, cap);
         for values in &mut *refined {
             values.resize(self.plan.n_vertices(), Vec3::ZERO);
         }
@@ -513,51 +513,5 @@ fn vectors(hash: &mut Fnv64, vs: &[Vec3]) {
         for x in v.to_array() {
             hash.f32(x);
         }
-    }
-}
-
-/// The neck's end: a fan about the middle of the boundary.
-fn cap_topology(plan: &Plan) -> PartTopology {
-    let n: usize = plan.boundary_loops().iter().map(Vec::len).sum();
-    let mut indices = Vec::new();
-    let mut first = 0;
-    for (k, l) in plan.boundary_loops().iter().enumerate() {
-        let len = l.len() as u32;
-        let middle = (n + k) as u32;
-        for i in 0..len {
-            indices.extend([middle, first + (i + 1) % len, first + i]);
-        }
-        first += len;
-    }
-    let ranges = vec![MaterialRange { material: Material::Cap, start: 0, count: indices.len() as u32 }];
-    PartTopology { name: "neck_cap", n_vertices: n + plan.boundary_loops().len(), indices, ranges }
-}
-
-/// The mean colour of the skin around the neck's end.
-fn rim_colour(plan: &Plan, colours: &[Vec3]) -> Vec3 {
-    let rim = || plan.boundary_loops().iter().flatten().map(|&v| colours[v as usize]);
-    rim().fold(Vec3::ZERO, |sum, colour| sum + colour) / rim().count().max(1) as f32
-}
-
-fn place_cap(plan: &Plan, skin: &[Vec3], cap: &mut Values) {
-    let mut first = 0;
-    let n: usize = plan.boundary_loops().iter().map(Vec::len).sum();
-    for (k, l) in plan.boundary_loops().iter().enumerate() {
-        let mut middle = Vec3::ZERO;
-        for (to, &v) in cap.positions[first..first + l.len()].iter_mut().zip(l) {
-            *to = skin[v as usize];
-            middle += *to;
-        }
-        middle /= l.len() as f32;
-        let ring = &cap.positions[first..first + l.len()];
-        let mut normal = Vec3::ZERO;
-        for i in 0..l.len() {
-            normal += (ring[(i + 1) % l.len()] - middle).cross(ring[i] - middle);
-        }
-        let normal = normal.normalize_or_zero();
-        cap.positions[n + k] = middle;
-        cap.normals[first..first + l.len()].fill(normal);
-        cap.normals[n + k] = normal;
-        first += l.len();
     }
 }
