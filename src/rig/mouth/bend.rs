@@ -1,7 +1,7 @@
 //! The tongue as a chain of joints: each of its sections turns a little against the one behind it, and what comes out of
 //! the mouth grows longer and thinner: a tongue keeps its volume (Kier and Smith 1985), of which a part follows from behind.
 
-use super::tongue::{AROUND, SECTIONS};
+use super::tongue::{self, AROUND, SECTIONS};
 use super::{MouthOfHead, off_bone};
 use crate::math::ops;
 use crate::motion::{Channel, Pose};
@@ -18,11 +18,8 @@ const UP: [f32; 2] = [-8.0, 12.0];
 const CURLS: f32 = 0.62;
 /// How much wider a wide tongue is.
 const WIDER: f32 = 0.40;
-/// Where it has its own width outside, as a part of its way to the teeth, and that width as a part of its widest.
-const WIDE_FROM: f32 = 1.4;
-const FREE_WIDTH: f32 = 0.85;
-/// Over the incisors, millimetres.
-const OVER: f32 = 1.5;
+/// From where on and where at last it is as wide as outside, as parts of its way to the teeth.
+const WIDENS: [f32; 2] = [0.7, 1.25];
 /// Between tongue and skull, and mandible, which it grows out of: canonical millimetres.
 const COVER: [f32; 2] = [1.0, 0.3];
 
@@ -59,14 +56,14 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
     let steepest = 90.0 + gape + 180.0 * (1.0 - smooth(0.0, 45.0, lift));
     let is_out = smooth(0.0, 12.0, far);
     let half_width = |i: usize| mouth.sections[i].iter().map(|&v| rest[v as usize].x).fold(0.0, f32::max).max(1e-5);
-    let widest = (0..SECTIONS).map(half_width).fold(0.0, f32::max);
-    let incisors = mouth.lower_front.y + OVER * unit;
+    let [incisors, canines] = mouth.onto;
     let moves = is_out.max(smooth(0.0, 4.0, -far));
     // The width that teeth leave where so much of the way is gone.
     let passage = |f: f32| {
         let k = (1..SECTIONS - 1).find(|&i| f < along[i]).unwrap_or(SECTIONS - 1);
         let t = ((f - along[k - 1]) / (along[k] - along[k - 1]).max(1e-6)).clamp(0.0, 1.0);
-        mouth.passage[k - 1] + t * (mouth.passage[k] - mouth.passage[k - 1])
+        let between = |of: &[f32; SECTIONS]| of[k - 1] + t * (of[k] - of[k - 1]);
+        between(&mouth.passage.inside) * (1.0 - is_out) + between(&mouth.passage.out) * is_out
     };
     let (mut at, mut way) = (middle(0), 0.0);
     // The same as if nothing bent it.
@@ -86,12 +83,12 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
         straight += step;
         way += step.length();
         let turn = turn(s, way);
-        // Before the teeth it is as wide as it likes, and its tip a spatula, however long it is drawn.
-        let outside = is_out * smooth(1.0, WIDE_FROM, way / length);
-        let flat = 1.0 + WIDER * wide * outside;
+        // It is as wide as teeth let it, and its tip a spatula, however long it is drawn.
+        let widens = is_out * smooth(WIDENS[0], WIDENS[1], way / length);
+        let flat = 1.0 + WIDER * wide * widens;
         let end = ((s - 0.8) / 0.21).max(0.0);
         let spatula = ops::powf((1.0 - end * end).max(0.05), 0.35);
-        let wider = 1.0 + (FREE_WIDTH * widest * spatula / half_width(i) - 1.0).max(0.0) * outside;
+        let wider = 1.0 + (mouth.passage.outside * spatula / half_width(i) - 1.0).max(0.0) * widens;
         let (x, y) = (wider * flat * ops::powf(thick, -0.15), ops::powf(thick, -0.12) / ops::sqrt(flat));
         // Between the teeth it is as narrow as they are.
         let held = x.min(passage(way / length) / half_width(i));
@@ -99,8 +96,8 @@ pub fn bend_tongue(mouth: &MouthOfHead, pose: &Pose, jaw: &Rigid, (unit, front):
         // It lies on the front teeth where it passes them.
         let under = rest[i * AROUND + AROUND - 1].y - middle(i).y;
         let bottom = straight.y + under * y;
-        let lies = ((incisors - bottom).max(0.0) * is_out).max((mouth.between - bottom).max(0.0) * moves)
-            * smooth(0.45, 0.92, way / length);
+        let lies = ((incisors - bottom).max(0.0) * is_out).max((canines - bottom).max(0.0) * moves)
+            * tongue::rises(way / length);
         let lifted = at + vec3(0.0, lies, 0.0);
         let place = |p: Vec3| {
             let d = p - middle(i);

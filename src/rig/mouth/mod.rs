@@ -57,6 +57,8 @@ impl HalfBody {
 
 /// Newton steps that keep a point under the skin.
 const STEPS: usize = 3;
+/// How far over the incisors a tongue passes them, millimetres of the head with a skull of 200 mm.
+const OVER: f32 = 1.5;
 
 /// The bodies of the mouth, immutable: one per program.
 #[derive(Clone, Debug)]
@@ -83,16 +85,13 @@ pub struct MouthOfHead {
     pub tongue: Vec<Vec3>,
     /// Vertices of the tongue by its sections from the root to the tip.
     sections: Vec<Vec<u16>>,
-    /// Half the width that teeth leave free, at each of them.
-    passage: [f32; tongue::SECTIONS],
+    passage: tongue::Passage,
     /// Skull and mandible.
     bones: [BoneField; 2],
     /// A canonical millimetre, metres.
     unit: f32,
-    /// Highest and foremost place of the middle lower incisors.
-    lower_front: Vec3,
-    /// Height over which the tongue passes between the lower canines.
-    between: f32,
+    /// Heights at which the tongue passes the lower incisors, and the lower canines.
+    onto: [f32; 2],
 }
 
 impl Default for Mouth {
@@ -123,19 +122,7 @@ impl Mouth {
         let unit = teeth::unit(&targets);
         let skin = Implicit::new(proportions);
         let arches = [Arch::new(&targets, true), Arch::new(&targets, false)];
-        let MouthOfHead {
-            half,
-            teeth,
-            upper,
-            lower,
-            tongue,
-            sections,
-            passage,
-            bones: fields,
-            unit: own,
-            lower_front,
-            between,
-        } = out;
+        let MouthOfHead { half, teeth, upper, lower, tongue, sections, passage, bones: fields, unit: own, onto } = out;
         *own = unit;
         for (field, bone) in fields.iter_mut().zip([BoneMesh::Skull, BoneMesh::Mandible]) {
             field.place(bone, &targets, unit);
@@ -161,11 +148,12 @@ impl Mouth {
         let [above, below] = teeth;
         teeth::place(&targets, true, above);
         teeth::place(&targets, false, below);
-        *passage = tongue::place(&targets, &arches, [above, below], fields, half);
-        self.tongue.unfold(half, tongue);
         let incisor = below.iter().take(teeth::TOOTH_VERTICES);
-        *lower_front = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).with_x(0.0);
-        *between = tongue::over_canines(below, unit);
+        let highest = incisor.fold(Vec3::NEG_INFINITY, |a, &p| a.max(p)).y;
+        *onto = [highest + OVER * unit, tongue::over_canines(below, unit)];
+        let leaves = onto[0].max(onto[1]);
+        *passage = tongue::place(&targets, &arches, [above, below], fields, leaves, half);
+        self.tongue.unfold(half, tongue);
     }
 }
 

@@ -79,6 +79,17 @@ pub(super) fn over_canines(below: &[Vec3], unit: f32) -> f32 {
     canine.map_or(f32::NEG_INFINITY, |(at, _)| at.iter().map(height).fold(f32::NEG_INFINITY, f32::max))
 }
 
+/// Half the width of a tongue that nothing narrows, canonical millimetres.
+const WIDEST: f32 = 18.5;
+/// How far below its underside, and how far before and behind a section, teeth narrow a tongue that comes out, canonical
+/// millimetres.
+const UNDER: f32 = 1.0;
+const BESIDE: f32 = 6.0;
+
+/// Half the width of a tongue before the teeth at most: as a part of its widest, and of half the width across the lower
+/// canines.
+const OUTSIDE: [f32; 2] = [0.85, 1.35];
+
 /// What a tooth takes up.
 #[derive(Clone, Copy, Debug)]
 struct Room {
@@ -113,14 +124,31 @@ struct Section {
     below: f32,
 }
 
-/// Positions of the half, metres; `bones`: skull and mandible. Gives half the width that teeth leave free at each section.
+/// Half the width that teeth leave a tongue at each of its sections, metres.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Passage {
+    /// In a shut mouth.
+    pub(super) inside: [f32; SECTIONS],
+    /// Where it lies on the lower teeth as it comes out.
+    pub(super) out: [f32; SECTIONS],
+    /// Half of its width before the teeth.
+    pub(super) outside: f32,
+}
+
+/// Over which part of the way to the teeth a tongue that comes out rises onto them.
+pub(super) fn rises(way: f32) -> f32 {
+    smoothstep(0.45, 0.92, way)
+}
+
+/// Positions of the half, metres; `bones`: skull and mandible; `onto`: the height at which it leaves the mouth.
 pub(super) fn place(
     t: &Targets<Vec3>,
     arches: &[Arch; 2],
     teeth: [&Vec<Vec3>; 2],
     bones: &[BoneField; 2],
+    onto: f32,
     out: &mut Vec<Vec3>,
-) -> [f32; SECTIONS] {
+) -> Passage {
     let unit = teeth::unit(t);
     let [upper, lower] = arches;
     let [above, below] = rooms(teeth);
@@ -144,7 +172,7 @@ pub(super) fn place(
         s.above = 0.5 * thick;
         s.below = 0.5 * thick + root * 0.35 * room;
         s.middle = floor + (0.12 + 0.05 * (1.0 - f)) * room + 0.5 * thick;
-        let nominal = 18.5 * unit * (0.80 + 0.20 * smoothstep(0.75, 0.25, f));
+        let nominal = WIDEST * unit * (0.80 + 0.20 * smoothstep(0.75, 0.25, f));
         s.half_width = nominal;
         let reach = 0.6 * length / SECTIONS as f32 + 0.3 * unit;
         for tooth in above[1..].iter().chain(&below[1..]) {
@@ -205,5 +233,18 @@ pub(super) fn place(
     let (first, last) = (sections[0], sections[SECTIONS - 1]);
     out.push(vec3(0.0, first.middle - 0.3 * first.below, back - 0.02 * length));
     out.push(vec3(0.0, last.middle, last.z + 0.01 * length));
-    sections.map(|s| s.half_width)
+    let own = &teeth[1][..teeth[1].len() / 2];
+    let mut passage = Passage { inside: sections.map(|s| s.half_width), ..Passage::default() };
+    for (free, s) in passage.out.iter_mut().zip(&sections) {
+        let bottom = s.middle - s.below;
+        let level = bottom + (onto - bottom).max(0.0) * rises(s.along) - UNDER * unit;
+        let beside = own.iter().filter(|p| (p.z - s.z).abs() < BESIDE * unit && p.y > level);
+        let narrowest = beside.fold(WIDEST * unit, |least, p| least.min(p.x - gap));
+        *free = narrowest.max(s.half_width);
+    }
+    let canine = below.iter().zip(&teeth::LOWER).find(|(_, tooth)| tooth.kind == ToothKind::Canine);
+    let across = canine.map_or(f32::INFINITY, |(room, _)| room.high.x);
+    let widest = passage.inside.into_iter().fold(0.0, f32::max);
+    passage.outside = (OUTSIDE[0] * widest).min(OUTSIDE[1] * across);
+    passage
 }
