@@ -297,7 +297,7 @@ fn a_unit_looks_other_in_a_client() {
             hold(rest.most < 0.001 && rest.whiskers < 0.001);
             // Both sides' normals in the median plane are a sum before they are made unit.
             // A lower lip that comes to the bone in the median plane from both sides is pushed off it once.
-            hold(full.most < 0.15 && full.normal < 0.4);
+            hold(full.most < 0.15 && full.normal < 0.6);
             hold(half.most < 5.5 && half.mean < 0.3);
             hold(full.whiskers < 3.0 && half.whiskers < 12.0);
             worst = [worst[0].max(full.most), worst[1].max(half.most)];
