@@ -24,7 +24,11 @@ fn library() -> Library {
 }
 
 fn pipeline(world: &World) -> Pipeline {
-    let mut pipeline = world.pipeline(LEVEL, 0);
+    at_level(world, LEVEL)
+}
+
+fn at_level(world: &World, level: u32) -> Pipeline {
+    let mut pipeline = world.pipeline(level, 0);
     pipeline.set_uv(true).unwrap();
     let inside = Layers { teeth: true, mouth: true, tongue: true, ..Layers::default() };
     pipeline.set_layers(inside).unwrap();
@@ -357,6 +361,18 @@ fn an_animation_plays_other_in_a_client() {
         }
     }
     assert!(faults.is_empty(), "{faults:?}");
+}
+
+/// Folds are there from level 3 on.
+#[test]
+fn a_head_with_folds_cannot_be_exported_or_rests_elsewhere() {
+    let world = World::embedded();
+    for id in ["pug", "shar_pei"] {
+        let mut pipeline = at_level(&world, 3);
+        let (glb, _) = exported(&world, &mut pipeline, world.breed(id), "AU26,AU101", "none");
+        let client = Client::new(&glb);
+        assert!(apart(&client, &client.rest(), &pipeline.frame()).most < 0.001, "{id}");
+    }
 }
 
 #[test]

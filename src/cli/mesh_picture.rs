@@ -53,6 +53,7 @@ pub(super) fn draw(mesh: &Refined) -> Result<Picture, Failure> {
         control: &fitted,
         control_indices: &edges,
         plan: None,
+        is_planned: false,
         whiskers: &[],
         eyes: &[],
         coat: None,

@@ -116,9 +116,11 @@ pub struct Frame<'a> {
     pub control: &'a [Vec3],
     /// Triangles of the control mesh, for drawing it as lines.
     pub control_indices: &'a [u32],
-    /// The plan that makes the positions and normals of the first part from `control`, for who would evaluate it once
-    /// more; none where there is no such plan.
+    /// The plan of the first part; none where that is no skin.
     pub plan: Option<&'a Plan>,
+    /// Whether the plan makes just the positions and normals of the first part from `control`, for who would evaluate it
+    /// once more: folds and wrinkles are beside it.
+    pub is_planned: bool,
     /// Whiskers, the left ones, then their mirror images; empty where they are not shown.
     pub whiskers: &'a [Whisker],
     /// What a picture is to know of the eyeballs beside their meshes, the left one first; empty where they are not shown.

@@ -270,7 +270,7 @@ impl Painter {
         frame: &Frame<'_>,
         drawing: &Drawing,
     ) {
-        let plan = frame.plan.filter(|plan| drawing.on_card && SubdividePass::takes(device, plan));
+        let plan = frame.plan.filter(|plan| frame.is_planned && drawing.on_card && SubdividePass::takes(device, plan));
         let pass = self.subdivide.as_ref().zip(plan);
         if !self.head.as_ref().is_some_and(|head| head.fits(frame)) {
             self.plan = None;

@@ -92,6 +92,7 @@ impl StandIn {
             control: &self.control,
             control_indices: &self.control_indices,
             plan: None,
+            is_planned: false,
             whiskers: &[],
             eyes: &[],
             coat: None,
