@@ -14,7 +14,7 @@ use crate::rig::lanes::{F8, P8};
 use glam::Vec3;
 
 /// Tissue over bone, canonical millimetres: what has less at rest keeps that.
-const TISSUE: f32 = 1.5;
+const TISSUE: f32 = 1.6;
 /// A field tells at most so much less for each metre that a point goes: bodies that are squeezed are farther in theirs.
 const STEEPEST: f32 = 2.0;
 /// What a push goes outwards for its way, at least.
@@ -48,8 +48,9 @@ pub(super) struct BonesOf {
     bones: [BoneField; 2],
     /// A canonical millimetre, metres.
     unit: f32,
-    /// By place: where it is at rest.
+    /// By place: where it is at rest, and which way its skin looks there.
     middles: Vec<Vec3>,
+    outwards: Vec<Vec3>,
     /// By bone and place: how far it stays from bone, metres.
     least: [Vec<f32>; 2],
     /// By bone and place: how far it may go from there unasked, metres.
@@ -157,7 +158,12 @@ impl OffBone {
         let limits: Vec<Vec3> = (0..rest.len()).map(|v| limit(neighbours, rest, v)).collect();
         out.middles.clear();
         out.middles.extend(self.places.iter().map(|&corners| middle(&limits, corners)));
-        let BonesOf { bones, unit, middles, least, leeway } = out;
+        out.outwards.clear();
+        out.outwards.extend(self.places.iter().map(|corners| {
+            let all = corners.map(|v| self.outwards(&limits, v as usize));
+            all.into_iter().sum::<Vec3>().normalize_or_zero()
+        }));
+        let BonesOf { bones, unit, middles, least, leeway, .. } = out;
         for ((field, least), leeway) in bones.iter().zip(least).zip(leeway) {
             least.clear();
             leeway.clear();
@@ -194,7 +200,7 @@ impl OffBone {
                 }
             }
             for _ in 0..ROUNDS {
-                if !self.ask((&of.bones[k], of.unit), &of.least[k], place, buffers) {
+                if !self.ask((&of.bones[k], of.unit), (&of.least[k], &of.outwards), place, buffers) {
                     break;
                 }
                 self.spread(neighbours, buffers);
@@ -204,8 +210,14 @@ impl OffBone {
     }
 
     /// Asks the places that are open and notes what each lacks, with its direction; whether any lacks something.
-    fn ask(&self, (field, unit): (&BoneField, f32), least: &[f32], place: &Rigid, buffers: &mut Pushes) -> bool {
-        let Pushes { limit, middles, asked, open, is_open, push, pushed, is_pushed, .. } = buffers;
+    fn ask(
+        &self,
+        (field, unit): (&BoneField, f32),
+        (least, outwards): (&[f32], &[Vec3]),
+        place: &Rigid,
+        buffers: &mut Pushes,
+    ) -> bool {
+        let Pushes { middles, asked, open, is_open, push, pushed, is_pushed, .. } = buffers;
         for eight in open.chunks(8) {
             let points: [Vec3; 8] =
                 std::array::from_fn(|k| place.back(middles[eight[k.min(eight.len() - 1)] as usize]));
@@ -218,9 +230,8 @@ impl OffBone {
                 }
                 let corners = self.places[p as usize];
                 let (_, g) = field.sample(point, 0.1 * unit);
-                let out = corners.map(|v| self.outwards(limit, v as usize)).into_iter().sum::<Vec3>();
-                let (own, out) = (g.normalize_or_zero(), place.turn.transpose() * out.normalize_or_zero());
-                // Bone is inside.
+                // Bone is inside, as it was at rest: skin that a pose crumples no longer says where that is.
+                let (own, out) = (g.normalize_or_zero(), outwards[p as usize]);
                 let to = (own + out * (TURNS - own.dot(out)).max(0.0)).normalize_or_zero();
                 let way = (to * (lacks / g.length().max(0.45))).clamp_length_max(FARTHEST * unit);
                 let length = way.length();
